@@ -147,12 +147,7 @@ def outside(written: str, twin: str) -> str:
 
 
 def timed(
-    name: str,
-    build: Built,
-    run: RunStop,
-    limit: Limit,
-    turns: int,
-    clock: Clock = time.perf_counter,
+    name: str, build: Built, run: RunStop, limit: Limit, turns: int, clock: Clock = time.perf_counter
 ) -> None:
     """Time the stop with a controller from outside in turns with its built-in twin, and print a line."""
     with build(Path.cwd()) as written:
@@ -209,15 +204,7 @@ class Block:
 
     def run(self) -> Any:
         """Run all stops on this thread."""
-        stops = self.stops
-        inputs = BlockInputs(
-            [stop.program for stop in stops],
-            [stop.config for stop in stops],
-            np.array([stop.parameters for stop in stops]),
-            np.array([stop.wheelset_parameters for stop in stops]),
-            np.array([stop.rail for stop in stops]),
-        )
-        return self.run_block(inputs)
+        return self.run_block(BlockInputs.of(self.stops))
 
 
 @contextmanager

@@ -12,9 +12,9 @@ from uictest.core.translation import translate
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.records import needs_of
-from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step_brake, step_vehicle
+from uictest.rig.model.stop import start
 
 
 class Rig:

@@ -19,9 +19,9 @@ from open_records import opened, rolling, step_in, step_on_floats
 from reduced_model import integrated_seconds
 from stops import Stop, slide_test
 
-from uictest.rig.backends.lanes import run_in_lanes
-from uictest.rig.backends.stops import compiled_rig
+from uictest.rig.lanes import run_in_lanes
 from uictest.rig.model.rail import FRICTIONS
+from uictest.rig.stops import compiled_rig
 from uictest.rig.train_stop import run_to_end
 
 STOPS = 64

@@ -17,9 +17,9 @@ from stops import Stop
 
 from uictest.core.physics import arithmetic
 from uictest.core.physics.air import air_changes, coldness, enthalpy, mass_flow
+from uictest.core.physics.brakes import torque
 from uictest.core.physics.caliper import line
-from uictest.core.physics.disc_brake import torque
-from uictest.core.physics.polach import creep_force
+from uictest.core.physics.rail import creep_force
 from uictest.core.physics.vehicle import SLOWEST_CREEP
 from uictest.core.translation import translate
 from uictest.rig.model.rail import FRICTIONS
@@ -39,12 +39,7 @@ def integrated_seconds(stop: Stop, duration: float) -> float:
     wheelset = [*module, p.initial_speed / p.wheel_radius]
     start = np.array([p.initial_speed, *wheelset * 4])
     solution = solve_ivp(
-        lambda _, x: rates(x, p, friction),
-        (0.0, duration),
-        start,
-        method="LSODA",
-        rtol=1e-6,
-        atol=1e-6,
+        lambda _, x: rates(x, p, friction), (0.0, duration), start, method="LSODA", rtol=1e-6, atol=1e-6
     )
     return float(solution.t[-1])
 

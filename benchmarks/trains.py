@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import machine
-import numpy as np
 from timing import side_by_side
 
 from uictest import rig
 from uictest.plans.scenario import Case, load
-from uictest.rig.backends.stops import compiled_rig
+from uictest.rig.stops import compiled_rig
 from uictest.rig.train_stop import run_to_end
 
 SCENARIO = Path(__file__).parent.parent / "scenarios" / "cleaned-rail-120.yaml"
@@ -46,7 +45,7 @@ def in_lanes(seeded: Sequence[Case], cars: int, turns: int) -> None:
     """Time trains and their cars as single ones in lanes; print the ratio and ns per wheelset and step."""
     trains = [rig.assemble_train([case] * cars, rig.Coupling(DISTANCE)) for case in seeded]
     inputs = [rig.assemble(case) for case in seeded for _ in range(cars)]
-    singles = [np.array([each[k] for each in inputs]) for k in range(3)]
+    singles = rig.stacked(inputs)
 
     def together() -> Any:
         return rig.run_trains_in_lanes(trains)

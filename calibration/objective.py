@@ -10,10 +10,9 @@ from parameters import Fields, fields, values
 
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.model.rail import FRICTIONS
-from uictest.rig.single_stop import FinishedStop, StopInputs
-from uictest.rig.train_stop import run_to_end
+from uictest.rig.stops import compiled_rig
+from uictest.rig.train_stop import FinishedStop, StopInputs, run_to_end
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 SETTINGS: dict[str, Fields] = {

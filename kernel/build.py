@@ -84,9 +84,9 @@ class BuildError(Exception):
 
 def digests() -> tuple[str, str]:
     """Return the digests of the package's Python files and of these programs, as they are now."""
-    from uictest.rig.kernel import built
+    from uictest.rig.kernel import library
 
-    return built.source_digest.__wrapped__(), built.builder_digest.__wrapped__()
+    return library.source_digest.__wrapped__(), library.builder_digest.__wrapped__()
 
 
 _AT_START: Final = digests()
@@ -206,7 +206,7 @@ def build_library(name: str, folder: Path) -> Path:
 
 def put_library(target: Target, objects: Sequence[Path], folder: Path, stem: str) -> Path:
     """Link a library into a folder, its digests behind the stem of its name; the one before goes."""
-    from uictest.rig.kernel.built import digest_of
+    from uictest.rig.kernel.library import digest_of
 
     if digests() != _AT_START:
         raise BuildError("Python files were changed while they were compiled; build again")

@@ -10,20 +10,15 @@ from kernel.records import lane_struct, struct
 from uictest.controllers import EXCHANGE, OUTPUTS_AT
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.core.physics import arithmetic
-from uictest.rig import recorded_rail, reference_distance
-from uictest.rig.backends import lanes, replayed, stops
-from uictest.rig.bench import run as bench
-from uictest.rig.bench.step import BENCH_SAMPLE
-from uictest.rig.kernel import lanes as lane_functions
-from uictest.rig.kernel.arguments import Length, lengths
-from uictest.rig.kernel.built import BUILDER
-from uictest.rig.kernel.lanes import block_layout
-from uictest.rig.kernel.library import WIDTHS, Entry
-from uictest.rig.model import controller, rail, start, stop, stop_measures, trace
-from uictest.rig.model.couplers import COUPLER
-from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.state import BOGIE, CAR, MODULE_STEP, WHEELSET
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig import lanes, recorded_stop, reference_distance, stops
+from uictest.rig.bench import identified_air, run as bench
+from uictest.rig.bench.run import BENCH_SAMPLE
+from uictest.rig.kernel import arguments as lane_functions
+from uictest.rig.kernel.arguments import Length, block_layout, lengths
+from uictest.rig.kernel.library import BUILDER, WIDTHS, Entry
+from uictest.rig.model import controller, rail, stop, stop_measures, trace
+from uictest.rig.model.parameters import PARAMETERS, WHEELSET_PARAMETERS
+from uictest.rig.model.state import BOGIE, CAR, COUPLER, MODULE_STEP, WHEELSET
 
 RECORDS: Final = {
     "Car": CAR,
@@ -48,8 +43,8 @@ _IN_LANES: Final = tuple(RECORDS)[:8]
 _WIDTH: Final = max(WIDTHS.values())
 """Lanes by which the layouts of blocks are found here; in the generated code each variant has its own."""
 ENTRIES: Final = (
-    *(stops.RUN, stops.STEP, lanes.entry(_WIDTH), replayed.NOTE),
-    *(recorded_rail.ENTRY, reference_distance.ENTRY, bench.BENCH, bench.WALK),
+    *(stops.RUN, stops.STEP, lanes.entry(_WIDTH), recorded_stop.NOTE),
+    *(recorded_stop.FOLLOW, reference_distance.ENTRY, bench.BENCH, identified_air.WALK),
 )
 _CALLS: Final = f"""
 INLINE Exchange* exchange_at(int64_t address) {{ return (Exchange*)address; }}
@@ -75,7 +70,7 @@ _IN_HEADER: Final = {
     controller.call_step: "call_step",
 }
 _OUTLINED: Final = (
-    *(start.start, stop_measures.begin_stop_measures, stop_measures.close_stop_measures, trace.sample),
+    *(stop.start, stop_measures.begin_stop_measures, stop_measures.close_stop_measures, trace.sample),
     *(stop.forget, stop.notice_faults, stop.meet_rail, stop.take_commands, stop.set_demands),
     *(stop.keep_measures, controller.decide, controller.write_inputs, controller.read_outputs),
     arithmetic.fma,

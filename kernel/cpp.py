@@ -17,8 +17,8 @@ from types import FunctionType
 from typing import Any
 
 from kernel.function import FunctionWriter, place_of
-from kernel.names import UntranslatableError, constant_text, namespace, safe
-from uictest.core.record import FieldCopier
+from kernel.names import UntranslatableError, constant_text, literal, namespace, safe
+from uictest.core.record import FieldCopier, FieldStarter
 
 _FIXED = {int: "int64_t", bool: "bool"}
 """Members of a named tuple that are never a number of each lane."""
@@ -60,9 +60,13 @@ class Program:
             raise UntranslatableError(f"{place_of(function)}: calls itself; write a loop")
         if function not in self.names:
             self._being_written.add(function)
-            name, text = (
-                self._copier(function) if isinstance(function, FieldCopier) else self._written(function)
-            )
+            match function:
+                case FieldCopier():
+                    name, text = self._copier(function)
+                case FieldStarter():
+                    name, text = self._starter(function)
+                case _:
+                    name, text = self._written(function)
             self._being_written.remove(function)
             self.names[function] = name
             self._parts.append(text)
@@ -77,6 +81,12 @@ class Program:
         name = f"copy_{copier.record.__name__}"
         lines = "".join(f"    target->{safe(field)} = source->{safe(field)};\n" for field in copier.fields)
         return name, f"INLINE void {name}(auto target, auto source) {{\n{lines}}}\n"
+
+    def _starter(self, starter: FieldStarter) -> tuple[str, str]:
+        name = f"start_{starter.record.__name__}"
+        values = starter.values.items()
+        lines = "".join(f"    target->{safe(field)} = {literal(value)};\n" for field, value in values)
+        return name, f"INLINE void {name}(auto target) {{\n{lines}}}\n"
 
     def choice(self, table: tuple[Any, ...], field: str, name: str) -> str:
         """Return the C++ name of the choice among the functions in a field of the rows of a table.

@@ -14,12 +14,11 @@ from kernel.contents import RECORDS, written
 from kernel.records import struct
 from uictest import controllers
 from uictest.api.fmu import resource
-from uictest.api.fmu.binaries import FOLDER, SYSTEMS
-from uictest.rig.backends.stops import STEP
-from uictest.rig.controller_alone import ALONE
+from uictest.api.fmu.building import FOLDER, SYSTEMS
 from uictest.rig.kernel.arguments import leaves, lengths
-from uictest.rig.kernel.built import source_digest
-from uictest.rig.kernel.library import Entry
+from uictest.rig.kernel.library import Entry, source_digest
+from uictest.rig.model.controller import ALONE
+from uictest.rig.stops import STEP
 
 CALLED: Final = {"step_rig": ("RIG_ARGUMENTS", STEP), "decide_alone": ("CONTROLLER_ARGUMENTS", ALONE)}
 """What kernel/fmi calls -> its name for the number of arguments, and the function."""

@@ -17,7 +17,7 @@ from kernel.syntax import (
     names_assigned,
     values_of,
 )
-from uictest.core.record import FieldCopier
+from uictest.core.record import FieldCopier, FieldStarter
 
 if TYPE_CHECKING:
     from kernel.cpp import Program
@@ -440,7 +440,10 @@ class FunctionWriter:
                     return f"{_BUILTINS[name]}({', '.join(given)})"
                 if isinstance(target, type) and len(getattr(target, "_fields", ())) == len(given) > 0:
                     return f"{self.program.named_tuple(target)}{{{', '.join(given)}}}"
-                if isinstance(target, FunctionType | FieldCopier) or target in self.program.replaced:
+                if (
+                    isinstance(target, FunctionType | FieldCopier | FieldStarter)
+                    or target in self.program.replaced
+                ):
                     return f"{self.program.function(target)}({', '.join(given)})"
         raise self.refusal(
             node, "a call of a function of this package, of a named tuple, of int, float, abs, len ..."

@@ -50,7 +50,7 @@ _TESTS = {
             "files",
             "user_cache",
         ),
-        *("test_ensemble.py", "test_record.py", "test_units.py", "rig", "evaluation", "history"),
+        *("test_record.py", "test_units.py", "rig", "evaluation", "history"),
     ),
     "judging": ("evaluation", "series"),
     "plans": (

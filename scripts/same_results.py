@@ -249,9 +249,9 @@ def log_group() -> Records:
     folder = log_folder()
     for result in uictest.read_results(folder):
         yield from case_records(result)
-    yield "stops", {"found": len(pd.read_csv(folder / "stops.csv"))}
+    yield "stops", {"found": len(pd.read_csv(folder / "tables/campaign_stops.csv"))}
     tables = {
-        name: pd.read_csv(folder / f"campaign_{name}.csv")
+        name: pd.read_csv(folder / f"tables/campaign_{name}.csv")
         for name in ("dry_stops", "wet_stops", "wet_series")
     }
     yield from row_records("dry stops", tables["dry_stops"], ["speed_kmh"], ["accepted"])
@@ -261,7 +261,7 @@ def log_group() -> Records:
 
 def log_friction_group() -> Records:
     """The friction that is fitted to each stop of the log."""
-    table = pd.read_csv(log_folder() / "campaign_friction.csv")
+    table = pd.read_csv(log_folder() / "tables/campaign_friction.csv")
     yield from row_records("stop", table, ["stops"], ["standing"])
 
 

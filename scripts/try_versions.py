@@ -30,7 +30,7 @@ TESTS = (
         "tests/statistics",
         "tests/identification",
     ),
-    *("tests/evaluation", "tests/rig/backends/test_compiled.py", "tests/rig/backends/test_lanes.py"),
+    *("tests/evaluation", "tests/rig/test_compiled.py", "tests/rig/test_lanes.py"),
     *("tests/report/formats", "tests/sweeps/summaries", "tests/cli/commands/test_run.py", "tests/stepping"),
 )
 OTHER_TEXT = "tests/scenario/test_json_schema.py::test_the_committed_schema_is_that_of_the_models"

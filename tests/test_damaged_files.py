@@ -34,21 +34,17 @@ from uictest.analysis import comparison, validation
 from uictest.cli.entry import execute
 from uictest.cli.output import ExitCode
 from uictest.controllers import Config, ControllerError
-from uictest.controllers.adapters.fmu import instance as fmu_instance, slave as fmu_slave
+from uictest.controllers.adapters import fmu as fmu_instance, fmu_slave
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import FORMATS, UnreadableError, read_contents, writer_of
 from uictest.plans import scenario, series as series_plans
-from uictest.recorded.field_data.time_axis import DefectKind
+from uictest.recorded.field_data.defects import DefectKind
 from uictest.rig import bench
 
 SOURCE = Path(__file__).parents[1]
 EXAMPLES = settings().max_examples * 2 // 5
 """Files that are tried of a kind in each way."""
 Tree = Any
-
-
-def _read_yaml(content):
-    return yaml.safe_load(content)
 
 
 def _written_json(tree):
@@ -108,7 +104,7 @@ def _written_parquet(tree):
 
 
 READ_FORM = {
-    "yaml": _read_yaml,
+    "yaml": yaml.safe_load,
     "json": json.loads,
     "csv": _read_csv,
     "xml": _read_xml,
@@ -124,21 +120,8 @@ WRITTEN_FORM = {
 
 VALUES = (
     *(None, True, False, 0, 1, -1, 2, 4, 5, 10**30, 0.1, -0.0, 1e-320, 1e308, float("nan"), float("inf")),
-    *(
-        "",
-        " ",
-        "0",
-        "-1",
-        "nan",
-        "1e999",
-        "on",
-        "lost",
-        "all",
-        "half",
-        "library",
-        "../../evil",
-        "/etc/passwd",
-    ),
+    *("", " ", "0", "-1", "nan", "1e999", "on", "lost", "all", "half", "library"),
+    *("../../evil", "/etc/passwd"),
     *("0 s", "5 s", "120 km/h", "0 km/h", "100 %", "0 %", "90 % of the dry stop", "20 degC", "-3 bar"),
     *("a\x00b", "\x1b[31m", "\ud800", "\u202e", "ä", "x" * 5000, "n" * 300 + ".yaml", "tcp://h:99999", "{n}"),
     *([], {}, [[]], [None], [0, 1], ["a"], {"": None}, {"a": 1}, {"value": "1 s"}, {"extends": "threshold"}),
@@ -320,135 +303,109 @@ PARTS = {
     "rail": ("rails", "rail: {condition: part.yaml}"),
     "sensors": ("sensors", "rig: {sensors: part.yaml}"),
 }
-KINDS = (
-    Kind("scenario", "x.yaml", "scenarios/*-*[0-9].yaml full.yaml outside.yaml", command("check {}")),
-    Kind("sweep", "x.sweep.yaml", "scenarios/*.sweep.yaml", command("check {}")),
-    Kind("series", "x.series.yaml", "scenarios/*.series.yaml", command("check {}")),
-    *(
-        Kind(
-            f"{name} part",
-            "part.yaml",
-            f"src/uictest/plans/library/{folder}/*.yaml",
-            command(f"check uses-{name}.yaml"),
-        )
-        for name, (folder, _) in PARTS.items()
-    ),
-    Kind(
-        "controller from outside",
-        "part.yaml",
-        "wsp.yaml fmu.yaml socket.yaml",
-        command("check uses-controller.yaml"),
-    ),
-    Kind("bench recipe", "x.yaml", "src/uictest/plans/library/benches/*.yaml", function(bench.load_bench)),
-    Kind(
-        "channel map",
-        "x.yaml",
-        "src/uictest/plans/library/channel_maps/*.yaml map.yaml",
-        command("evaluate -v --list stop.csv --map {}"),
-    ),
-    Kind("validation", "x.validation.yaml", "plan.validation.yaml", function(series_plans.load_validation)),
-    Kind(
-        "requirements in YAML",
-        "x.yaml",
-        "list.yaml",
-        command("list -v --requirements --requirement-list {} stop.yaml"),
-    ),
-    Kind(
-        "requirements in CSV",
-        "x.csv",
-        "list.csv",
-        command("list -v --requirements --requirement-list {} stop.yaml"),
-    ),
-    Kind(
-        "requirements in text",
-        "x.txt",
-        "list.txt",
-        command("list -v --requirements --requirement-list {} stop.yaml"),
-    ),
-    Kind("description of an FMU", "x.xml", "fmi2.xml fmi3.xml", described_fmu),
-    Kind(
-        "results of a run",
-        "bad/results.json",
-        "good/results.json",
-        command("report bad --format md,junit,csv -o out"),
-        3,
-    ),
-    Kind(
-        "results that are compared",
-        "bad/results.json",
-        "good/results.json",
-        command("compare -v good bad"),
-        3,
-    ),
-    Kind(
-        "results of the last run",
-        "last/latest/results.json",
-        "good/results.json",
-        command("run -v --lf --dry-run -o last stop.yaml"),
-        3,
-    ),
-    Kind(
-        "accepted baseline",
-        "bad/results.json",
-        "good/results.json",
-        function(compared_baseline, ValueError, OSError),
-        3,
-    ),
-    Kind("manifest", "runs/one/manifest.json", "good/manifest.json", command("open runs"), 4),
-    Kind("entry of the index", "runs/one/index-entry.json", "good/index-entry.json", command("open runs"), 4),
-    Kind(
-        "result of a sweep",
-        "sweep/sweep.json",
-        "swept/sweep.json",
-        command("report sweep --format md,csv -o out"),
-        3,
-    ),
-    Kind("manifest of a sweep", "sweep/manifest.json", "swept/manifest.json", command("open ."), 4),
-    Kind(
-        "result of a validation",
-        "validation.json",
-        "valid/validation.json",
-        command("check uses-validation.yaml"),
-    ),
-    Kind(
-        "result of a validation that is used",
-        "x.json",
-        "valid/validation.json",
-        function(validation.read_validation, ValueError, OSError),
-    ),
-    Kind(
-        "recording in CSV",
-        "x.csv",
-        "short.csv",
-        command(
-            "evaluate -v x.csv --scenario stop.yaml --format json -o out --record none",
-            reasons=get_args(DefectKind),
+LIST = command("list -v --requirements --requirement-list {} stop.yaml")
+REPORT = command("report bad --format md,junit,csv -o out")
+EVALUATE = command(
+    "evaluate -v x.csv --scenario stop.yaml --format json -o out --record none", reasons=get_args(DefectKind)
+)
+LIBRARY = "src/uictest/plans/library"
+KINDS = tuple(
+    Kind(*row)
+    for row in (
+        ("scenario", "x.yaml", "scenarios/*-*[0-9].yaml full.yaml outside.yaml", command("check {}")),
+        ("sweep", "x.sweep.yaml", "scenarios/*.sweep.yaml", command("check {}")),
+        ("series", "x.series.yaml", "scenarios/*.series.yaml", command("check {}")),
+        *(
+            (f"{name} part", "part.yaml", f"{LIBRARY}/{folder}/*.yaml", command(f"check uses-{name}.yaml"))
+            for name, (folder, _) in PARTS.items()
         ),
-        3,
-    ),
-    Kind(
-        "recording in Parquet",
-        "x.parquet",
-        "good/recordings/stop.parquet",
-        command("compare -v x.parquet good/recordings/stop.parquet"),
-    ),
-    Kind(
-        "recording of a run",
-        "bad/recordings/stop.parquet",
-        "good/recordings/stop.parquet",
-        command("report bad --format html -o out"),
-        8,
-    ),
-    *(
-        Kind(
-            f"recording in {name}",
-            f"x{FORMATS[name].suffix}",
-            f"short{FORMATS[name].suffix}",
-            function(read_contents, UnreadableError, OSError),
-            12,
-        )
-        for name in ("mdf", "tdms", "mat", "parquet")
-    ),
+        (
+            "controller from outside",
+            "part.yaml",
+            "wsp.yaml fmu.yaml socket.yaml",
+            command("check uses-controller.yaml"),
+        ),
+        ("bench recipe", "x.yaml", f"{LIBRARY}/benches/*.yaml", function(bench.load_bench)),
+        (
+            "channel map",
+            "x.yaml",
+            f"{LIBRARY}/channel_maps/*.yaml map.yaml",
+            command("evaluate -v --list stop.csv --map {}"),
+        ),
+        ("validation", "x.validation.yaml", "plan.validation.yaml", function(series_plans.load_validation)),
+        ("requirements in YAML", "x.yaml", "list.yaml", LIST),
+        ("requirements in CSV", "x.csv", "list.csv", LIST),
+        ("requirements in text", "x.txt", "list.txt", LIST),
+        ("description of an FMU", "x.xml", "fmi2.xml fmi3.xml", described_fmu),
+        ("results of a run", "bad/results.json", "good/results.json", REPORT, 3),
+        (
+            "results that are compared",
+            "bad/results.json",
+            "good/results.json",
+            command("compare -v good bad"),
+            3,
+        ),
+        (
+            "results of the last run",
+            "last/latest/results.json",
+            "good/results.json",
+            command("run -v --lf --dry-run -o last stop.yaml"),
+            3,
+        ),
+        (
+            "accepted baseline",
+            "bad/results.json",
+            "good/results.json",
+            function(compared_baseline, ValueError, OSError),
+            3,
+        ),
+        ("manifest", "runs/one/manifest.json", "good/manifest.json", command("open runs"), 4),
+        ("entry of the index", "runs/one/index-entry.json", "good/index-entry.json", command("open runs"), 4),
+        (
+            "result of a sweep",
+            "sweep/results.json",
+            "swept/results.json",
+            command("report sweep --format md,csv -o out"),
+            3,
+        ),
+        ("manifest of a sweep", "sweep/manifest.json", "swept/manifest.json", command("open ."), 4),
+        (
+            "result of a validation",
+            "validation.json",
+            "valid/validation.json",
+            command("check uses-validation.yaml"),
+        ),
+        (
+            "result of a validation that is used",
+            "x.json",
+            "valid/validation.json",
+            function(validation.read_validation, ValueError, OSError),
+        ),
+        ("recording in CSV", "x.csv", "short.csv", EVALUATE, 3),
+        (
+            "recording in Parquet",
+            "x.parquet",
+            "good/recordings/stop.parquet",
+            command("compare -v x.parquet good/recordings/stop.parquet"),
+        ),
+        (
+            "recording of a run",
+            "bad/recordings/stop.parquet",
+            "good/recordings/stop.parquet",
+            command("report bad --format html -o out"),
+            8,
+        ),
+        *(
+            (
+                f"recording in {name}",
+                f"x{FORMATS[name].suffix}",
+                f"short{FORMATS[name].suffix}",
+                function(read_contents, UnreadableError, OSError),
+                12,
+            )
+            for name in ("mdf", "tdms", "mat", "parquet")
+        ),
+    )
 )
 
 FOUND = (

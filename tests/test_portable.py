@@ -95,7 +95,7 @@ def test_without_posix_the_main_commands_give_the_same(tmp_path):
     assert restricted == ordinary
     assert ordinary.endswith("codes [0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0]\n")  # the stop does not slide: no fit
     assert contents(tmp_path / "restricted") == contents(tmp_path / "ordinary")
-    assert len(list(tmp_path.rglob("results.json"))) == 8
+    assert len(list(tmp_path.rglob("results.json"))) == 10
     assert list(tmp_path.rglob(".*")) == []
     latest = tmp_path / "restricted" / "runs" / "latest"
     assert not latest.is_symlink()

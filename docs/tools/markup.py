@@ -59,5 +59,7 @@ def with_generated(page: str, generate: Callable[[str], str]) -> str:
 
 def table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
     """Return a Markdown table; vertical bars in cells are escaped."""
-    lines = [headings, tuple("---" for _ in headings), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+    head, *lines = [
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in (headings, *rows)
+    ]
+    return "\n".join([head, "|---" * len(headings) + "|", *lines])

@@ -21,7 +21,8 @@ from markup import with_generated
 REPOSITORY = Path(__file__).parents[2]
 _TABLES: dict[str, Callable[[], str]] = {
     "units": fields.units_table,
-    "measures": fields.measures_table,
+    "measures": lambda: fields.measures_table(of_wheelsets=False),
+    "measures of wheelsets": lambda: fields.measures_table(of_wheelsets=True),
     "faults": fields.faults_table,
     "plausible": fields.plausible_table,
 }

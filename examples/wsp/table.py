@@ -48,7 +48,7 @@ def title(criterion: str, row: Row) -> str:
 
 
 def main(folder: Path) -> None:
-    criteria = read(folder / "series-criteria.csv", "criterion")
+    criteria = read(folder / "tables/series-criteria.csv", "criterion")
     table = {
         name: rows
         for name, rows in criteria.items()
@@ -60,7 +60,7 @@ def main(folder: Path) -> None:
     for criterion, rows in table.items():
         cells = [cell(rows[name]) for name in series]
         print(f"| {title(criterion, rows[series[0]])} | {' | '.join(cells)} |")
-    measures = read(folder / "series.csv", "measure")
+    measures = read(folder / "tables/series.csv", "measure")
     for name in SHOWN if len(table) < len(criteria) else ():
         unit = measures[name][series[0]]["unit"]
         cells = [cell(measures[name][each]) for each in series]

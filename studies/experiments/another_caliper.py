@@ -65,11 +65,7 @@ _MODULE_TITLES: Final = {
     **{f"only_{name}": f"with no difference but its {name}" for name in WITHOUT},
     "other_hose": "with a hose of 13 mm and 1 m",
 }
-_WIDE: Final = {
-    "mean": "identified",
-    "largest": "for the largest error",
-    "shipped": "as it ships",
-}
+_WIDE: Final = {"mean": "identified", "largest": "for the largest error", "shipped": "as it ships"}
 _WIDE_CLEARANCE: Final = "6 mm"
 _HOSE_MISSES: Final = (
     "No compensation knows that the air in a hose has resistance and inertia: where a released cylinder is "

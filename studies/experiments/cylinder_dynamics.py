@@ -20,21 +20,8 @@ from studies.filter_procedures import (
     procedure_errors,
     worst_note,
 )
-from studies.model_errors import (
-    FILTER_MISSES,
-    PRESSURE_CHANNELS,
-    pressure_error,
-    slide_replays,
-)
-from studies.quantity import (
-    NOT_ASKED,
-    OwnBand,
-    SourceBand,
-    StudyQuantity,
-    StudyValue,
-    repeats_note,
-    spread,
-)
+from studies.model_errors import FILTER_MISSES, PRESSURE_CHANNELS, pressure_error, slide_replays
+from studies.quantity import NOT_ASKED, OwnBand, SourceBand, StudyQuantity, StudyValue, repeats_note, spread
 from studies.replay import maximum_pressure
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table, samples

@@ -26,12 +26,7 @@ REAL_TRAIN_TIME = 17.6
 _LEAST, _GREATEST = "minimum_deceleration", "maximum_deceleration"
 REAL_TRAIN_DECELERATIONS = {_LEAST: 0.98, _GREATEST: 1.52}
 """Of the real train, m/s2."""
-_MEASURED = {
-    "braking_time": "s",
-    "braking_distance": "m",
-    _LEAST: "mps2",
-    _GREATEST: "mps2",
-}
+_MEASURED = {"braking_time": "s", "braking_distance": "m", _LEAST: "mps2", _GREATEST: "mps2"}
 """Measures that are quantities, with the unit in their names in results."""
 
 QUANTITIES = (

@@ -111,12 +111,7 @@ class FieldRig:
 
 def _side_by_side(cases: Sequence[Case]) -> list[rig.SimulatedStop]:
     inputs = [rig.assemble(case) for case in cases]
-    points = max(each.rail.shape[1] for each in inputs)
-    batch = rig.run_in_lanes(
-        np.array([each.parameters for each in inputs]),
-        np.array([each.wheelset_parameters for each in inputs]),
-        np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
-    )
+    batch = rig.run_in_lanes(*rig.stacked(inputs))
     trains, wheelsets = batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray)
     return [rig.SimulatedStop(*stop) for stop in zip(trains, wheelsets, strict=True)]
 

@@ -9,14 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.hardware.compiled import compiled_walk
-from studies.hardware.equations import (
-    hose_drop,
-    maximum,
-    minimum,
-    piston_after,
-    through_valve,
-    vessel_after,
-)
+from studies.hardware.equations import hose_drop, maximum, minimum, piston_after, through_valve, vessel_after
 from studies.hardware.parameters import (
     AMBIENT,
     ATMOSPHERE,

@@ -12,25 +12,21 @@ from uictest.core.recording import parquet_bytes
 from uictest.core.recording.formats import writer_of
 from uictest.judging import evaluation
 
+from ..cli.conftest import STATED as OPTIONS, rolling_train
+
 STATED = {"rail": "dry", "position": "R", "wsp": "active", "criteria": "uictest-stop"}
 
 
 @pytest.fixture
 def train(workplace):
     """The record of a train of rolling wheels that stops from 10 m/s within ten seconds."""
-    time = np.arange(0.0, 10.5, 0.01)
-    speed = np.maximum(10.0 - time, 0.0)
-    channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}}
-    units = {name: "s" if name == "time" else "m/s" for name in channels}
     path = workplace / "Stop 1.csv"
-    writer_of("csv")(uictest.Recording(channels, units, {"brake_command_time": "0 s"}), path)
+    writer_of("csv")(rolling_train(), path)
     return path
 
 
 def test_digits_are_those_of_the_command(train, command):
-    keys = ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
-    options = [f"--set={key}" for key in keys]
-    assert command("evaluate", train, *options, "-o", "out") == 0
+    assert command("evaluate", train, *OPTIONS, "-o", "out") == 0
     folder = latest_run(Path("out"))
     results = uictest.evaluate(train, **STATED)
     written = json.loads((folder / "results.json").read_text())["cases"]

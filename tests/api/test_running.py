@@ -9,12 +9,11 @@ from pathlib import Path
 import pytest
 
 import uictest
-from uictest.core import recording
 from uictest.core.files import latest_run
 from uictest.judging import evaluation
 from uictest.report import read_run
 from uictest.running import campaign
-from uictest.running.campaign import train_blocks
+from uictest.running.campaign import stop as stop_module
 
 AXIS = {"rail.friction": [0.06, 0.1]}
 FAILING = "expect: fail\n"
@@ -37,12 +36,15 @@ def figures(results):
 
 
 def test_digits_and_files_are_those_of_the_command(write, command):
-    path = write(text=FAILING)
-    assert command("run", path, "--set", "rail.friction=0.06,0.1", "--seed", "5", "-o", "out") == 1
+    path = write(text=f"tags: [wet]\n{FAILING}")
+    words = "run scenarios/stop.yaml --set rail.friction=0.06,0.1 --seed 5 -m wet -o out"
+    assert command(*words.split()) == 1
     there = latest_run(Path("out").rename("there"))
-    results = uictest.run(path, set=AXIS, seed=5, output="out")
+    results = uictest.run(path, set=AXIS, seed=5, tag="wet", output="out")
     ours = contents(results.folder)
     assert ours == contents(there)
+    manifest = json.loads((results.folder / "manifest.json").read_text())
+    assert manifest["command"] == ["uictest", *words.split()]
     assert {"recordings/stop[friction=0.06].parquet", "summary.csv", "index.html"} <= set(ours)
 
 
@@ -56,13 +58,16 @@ def test_nothing_is_written_or_printed(write, workplace, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-def test_cases_run_as_their_files_do(write):
+def test_cases_run_as_their_files_do_and_threads_may_run_side_by_side(write):
     path = write()
     cases = uictest.load(path, set=AXIS, seed=2)
     results = uictest.run(cases, jobs=1)
     assert figures(results) == figures(uictest.run(path, set=AXIS, seed=2, jobs=3))
     assert figures(uictest.run(cases[1])) == figures([results[1]])
     assert figures(uictest.run(cases, select="0.1")) == figures([results[1]])
+    with ThreadPoolExecutor(2) as threads:
+        found = list(threads.map(lambda _: figures(uictest.run(path, set=AXIS, seed=2)), range(2)))
+    assert found == [figures(results)] * 2
 
 
 def test_the_page_of_loaded_cases_offers_no_command_that_would_run_others(write):
@@ -73,9 +78,15 @@ def test_the_page_of_loaded_cases_offers_no_command_that_would_run_others(write)
     assert "Copy command" not in (loaded / "index.html").read_text()
 
 
-def test_results_are_found_from_another_working_folder(write, tmp_path, monkeypatch):
-    results = uictest.run(write(), record="all", output="out")
+def test_recordings_are_those_of_memory_and_found_from_another_working_folder(write, tmp_path, monkeypatch):
+    path = write()
+    kept = uictest.run(path, record="all").recording("stop")
+    results = uictest.run(path, record="all", output="out")
     again = uictest.read_results("out/latest")
+    for other in (results.recording("stop"), uictest.simulate(path)):
+        assert other.metadata == kept.metadata
+        assert isinstance(other, uictest.Recording)
+        assert other.frame().equals(kept.frame())
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     monkeypatch.chdir(elsewhere)
@@ -175,7 +186,7 @@ def test_an_interrupt_is_raised(write, monkeypatch):
 
 
 def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
-    path, run_stop = write(), train_blocks.run_stop
+    path, run_stop = write(), stop_module.run_stop
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
 
     def interrupted(stop, *arguments):
@@ -185,7 +196,7 @@ def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
 
     try:
         with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
-            patched.setattr(train_blocks, "run_stop", interrupted)
+            patched.setattr(stop_module, "run_stop", interrupted)
             uictest.run(path, set={"seed": list(range(20))}, jobs=1)
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
@@ -205,10 +216,6 @@ def test_what_is_finished_when_a_run_is_interrupted_is_reported(write, monkeypat
     with pytest.raises(KeyboardInterrupt):
         uictest.run(path, set=AXIS, output="out")
     assert [result.id for result in uictest.read_results("out/latest")] == ["stop[friction=0.06]"]
-    monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
-    with pytest.raises(KeyboardInterrupt):
-        uictest.run(path, output="nothing")
-    assert not Path("nothing").exists()
 
 
 def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
@@ -216,25 +223,10 @@ def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
         result = evaluation.error_result(stop.case, "ZeroDivisionError: no wheel load")
         return campaign.StopRun(stop, campaign.CaseRun(result))
 
-    monkeypatch.setattr(train_blocks, "run_stop", crash)
+    monkeypatch.setattr(stop_module, "run_stop", crash)
     results = uictest.run(write())
     assert (results.met, results[0].outcome) == (False, "error")
     assert math.isnan(results.frame().loc["stop", "braking_distance_m"])
-
-
-def test_threads_may_run_side_by_side(write):
-    path = write()
-    alone = figures(uictest.run(path, set=AXIS))
-    with ThreadPoolExecutor(2) as threads:
-        found = list(threads.map(lambda _: figures(uictest.run(path, set=AXIS)), range(2)))
-    assert found == [alone, alone]
-
-
-def test_the_manifest_names_the_command_that_does_the_same(write):
-    path = write("a", "tags: [wet]\n")
-    folder = uictest.run(path, set={"rail.friction": [0.06, 0.1]}, seed=3, tag="wet", output="out").folder
-    words = "uictest run scenarios/a.yaml --set rail.friction=0.06,0.1 --seed 3 -m wet -o out"
-    assert json.loads((folder / "manifest.json").read_text())["command"] == words.split()
 
 
 def test_reports_are_read_back(write):
@@ -251,14 +243,3 @@ def test_reports_are_read_back(write):
         uictest.read_results("out/results.json")
     with pytest.raises(FileNotFoundError):
         uictest.read_results("nowhere")
-
-
-def test_recordings_of_memory_and_folder_are_the_same(write):
-    path = write()
-    kept = uictest.run(path, record="all").recording("stop")
-    written = uictest.run(path, record="all", output="out").recording("stop")
-    simulated = uictest.simulate(path)
-    for other in (written, simulated):
-        assert other.metadata == kept.metadata
-        assert isinstance(other, recording.Recording)
-        assert other.frame().equals(kept.frame())

@@ -42,7 +42,7 @@ def test_figures_are_those_of_the_command(file, command):
     assert (len(validation), validation.met, validation.folder, validation.file) == (2, True, None, None)
     assert validation.tally == "2 of 2 recorded stops counted"
     frame = validation.frame()
-    with (written / "figures.csv").open() as lines:
+    with (written / "tables" / "figures.csv").open() as lines:
         rows = {row["figure"]: row for row in csv.DictReader(lines)}
     assert list(frame.index) == list(rows)
     assert frame.loc["braking_distance_m", "bias"] == float(rows["braking_distance_m"]["bias"])
@@ -55,7 +55,7 @@ def test_figures_are_those_of_the_command(file, command):
 
 def test_what_is_written_flags_runs_and_sweeps(file):
     validation = uictest.validate(file, output="validations")
-    assert {path.name for path in validation.folder.iterdir()} >= {"validation.json", "stops.csv"}
+    assert {path.name for path in validation.folder.rglob("*")} >= {"validation.json", "stops.csv"}
     changes = {"initial_speed": ["30 km/h", "36 km/h"]}
     results = uictest.run("scenarios/stop.yaml", set=changes, validated=validation.file)
     outside = [[each.key for each in result.domain_of_validity.outside] for result in results]

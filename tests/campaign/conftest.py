@@ -3,20 +3,13 @@
 from pathlib import Path
 from types import SimpleNamespace
 
-import pytest
-
 from uictest.plans.scenario import expectation_of
 
 
-@pytest.fixture
-def make_case():
+def make_case(case_id, *tags, file="a.yaml", expect="pass"):
     """A case as far as a campaign looks at it."""
-
-    def make(case_id, *tags, file="a.yaml", expect="pass"):
-        named = {"requirements": (), "test_case": None, "criteria": (), "repeat": 1}
-        rig = SimpleNamespace(compensation_model=SimpleNamespace(to_identify=False))
-        scenario = SimpleNamespace(tags=tags, expect=expectation_of(expect), rig=rig, **named)
-        place = {"path": Path("scenarios", file), "train": None, "is_from_outside": False}
-        return SimpleNamespace(id=case_id, scenario=scenario, parameters={}, **place)
-
-    return make
+    named = {"requirements": (), "test_case": None, "criteria": (), "repeat": 1}
+    rig = SimpleNamespace(compensation_model=SimpleNamespace(to_identify=False))
+    scenario = SimpleNamespace(tags=tags, expect=expectation_of(expect), rig=rig, **named)
+    place = {"path": Path("scenarios", file), "train": None, "is_from_outside": False}
+    return SimpleNamespace(id=case_id, scenario=scenario, parameters={}, **place)

@@ -8,6 +8,8 @@ from uictest.controllers import ControllerError
 from uictest.judging.evaluation import CaseResult
 from uictest.running.campaign import RecordingRequest, Stop, run_stop
 
+from .conftest import make_case
+
 
 class Rig:
     """Stands in for the rig and the judgement: remembers how it was asked to record."""
@@ -56,7 +58,7 @@ def make_rig(monkeypatch):
     ],
 )
 def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
-    make_case, make_rig, wish, outcome, asked, recording
+    make_rig, wish, outcome, asked, recording
 ):
     rig = make_rig(outcome)
     examined = run_stop(Stop(make_case("dry")), wish).case_run
@@ -66,7 +68,7 @@ def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
 
 
 @pytest.mark.parametrize(("outcome", "recording"), [("pass", None), ("fail", "every 0.02 s")])
-def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make_rig, outcome, recording):
+def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_rig, outcome, recording):
     """It may answer differently another time, and the recording would be of another stop."""
     rig, case = make_rig(outcome), make_case("dry")
     case.is_from_outside = True
@@ -74,7 +76,7 @@ def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make
     assert (rig.asked, examined.recording) == ([0.02], recording)
 
 
-def test_a_result_says_which_controller_answered_in_which_stop(make_case, make_rig):
+def test_a_result_says_which_controller_answered_in_which_stop(make_rig):
     make_rig("pass")
     result = run_stop(Stop(make_case("dry")), RecordingRequest("none")).case_run.result
     told = result.controller_version, result.controller_contract, result.case_sha256
@@ -82,7 +84,7 @@ def test_a_result_says_which_controller_answered_in_which_stop(make_case, make_r
     assert result.noise_key == "00c0ffee"
 
 
-def test_a_stop_in_which_the_controller_failed_is_named_as_well(make_case, make_rig, monkeypatch):
+def test_a_stop_in_which_the_controller_failed_is_named_as_well(make_rig, monkeypatch):
     """A log of the controller has it, too, and is looked at first."""
 
     def crash(case, record_every, run):
@@ -96,7 +98,7 @@ def test_a_stop_in_which_the_controller_failed_is_named_as_well(make_case, make_
     assert (result.controller_version, result.case_sha256) == ("", "ab" * 32)
 
 
-def test_a_crash_of_one_case_is_its_result(make_case, make_rig, monkeypatch):
+def test_a_crash_of_one_case_is_its_result(make_rig, monkeypatch):
     def crash(case, record_every, run):
         raise ZeroDivisionError("no wheel load")
 

@@ -9,7 +9,7 @@ from uictest import rig
 from uictest.judging.evaluation import json_form, result_document, to_json
 from uictest.plans import scenario
 from uictest.running import campaign
-from uictest.running.campaign import RecordingRequest, RunSettings, run_cases, train_blocks
+from uictest.running.campaign import RecordingRequest, RunSettings, run_cases, stop as stop_module
 
 STOP = """
 schema: uictest/scenario/1
@@ -106,7 +106,7 @@ def test_trains_in_lanes_give_the_results_of_trains_one_by_one(
     recording = RecordingRequest(cases_to_record, every=0.01)
     in_lanes = run(loaded, jobs, recording)
     assert sorted(queues) == expected
-    monkeypatch.setattr(train_blocks, "_MOST_TOGETHER", 1)
+    monkeypatch.setattr(stop_module, "_MOST_TOGETHER", 1)
     assert run(loaded, 1, recording) == in_lanes
     assert sorted(queues) == expected
 

@@ -6,7 +6,7 @@ import subprocess
 import sysconfig
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,8 @@ from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
-from uictest.running.campaign import CaseRun, StopRun, train_blocks
+from uictest.rig.identification.lines import FittedLine, computed_force
+from uictest.running.campaign import CaseRun, StopRun, stop as stop_module
 
 STATED = tuple(
     f"--set={each}"
@@ -62,6 +63,31 @@ def rolling_train(end=10.5, **changes):
     channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
     units = {name: "s" if name == "time" else "m/s" for name in channels}
     return Recording(channels, units, {"brake_command_time": "0 s"})
+
+
+SQUEEZING, RELEASING = FittedLine(0.042, -1800.0), FittedLine(0.0475, -1650.0)
+CALIPER_LINES = {"bc_squeezing": SQUEEZING, "bc_releasing": RELEASING}
+CALIPER_LINES |= {"wsp_squeezing": SQUEEZING, "wsp_releasing": RELEASING}
+
+
+@cache
+def caliper():
+    """A caliper of these lines, released between two brakings; its cylinder lags 30 ms behind the tank."""
+    time = 0.001 * np.arange(22_001)
+    pressure = np.interp(time, [0, 5, 10, 13, 16, 19, 22], [0, 4, 0, 3, 0.5, 4, 0])
+    still = np.zeros(time.size)
+    force = computed_force(1e5 * pressure, still > 0.0, CALIPER_LINES, 0.0, 0.001, 0.0) / 1e3
+    channels = {
+        "time": (time, "s"),
+        "cylinder_pressure_1": (pressure, "bar"),
+        "clamping_force_1": (force, "kN"),
+        "valve_command_1": (still, "1"),
+        "measured_pressure_2": (np.interp(time + 0.03, time, pressure), "bar"),
+    }
+    return Recording(
+        {name: samples for name, (samples, _) in channels.items()},
+        {name: unit for name, (_, unit) in channels.items()},
+    )
 
 
 @pytest.fixture(autouse=True)
@@ -178,5 +204,5 @@ def made_up(monkeypatch):
         result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")
         return StopRun(stop, CaseRun(result))
 
-    monkeypatch.setattr(train_blocks, "run_stop", examine)
+    monkeypatch.setattr(stop_module, "run_stop", examine)
     return examined

@@ -1,6 +1,5 @@
 """The installed program in a process of its own, with the real rig."""
 
-import json
 import os
 import resource
 import signal
@@ -20,12 +19,12 @@ _RUNS = (
     "uictest.judging.series.result",
 )
 _RARE = (
-    "uictest.rig.backends.lanes",
+    "uictest.rig.lanes",
     "uictest.rig.identification",
     "uictest.judging.series.result",
     *("uictest.plans.sweeps", "uictest.running.chunked", "uictest.analysis.summaries"),
 )
-_WORDS = ("uictest.core.document", "uictest.judging.evaluation", "uictest.report.verdict_sentences")
+_WORDS = ("uictest.judging.evaluation", "uictest.report.verdict_sentences")
 """What results are told with."""
 _FORBIDDEN = {
     ("--help",): (*_LARGE, "uictest.report.verdict_sentences", "numpy", "pydantic", "yaml"),
@@ -59,24 +58,6 @@ def test_a_command_imports_only_what_it_needs(scenario, arguments):
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=HANGING)
     assert done.returncode == 0, done.stderr
     assert done.stderr.splitlines()[-1] == "[]"
-
-
-def test_a_sweep_loads_no_pandas_and_arrow_still_takes_its_objects(scenario):
-    path = scenario("study", "vary: {ranges: {initial_speed: {first: 20 km/h, last: 30 km/h, count: 2}}}\n")
-    program = """if True:
-        import sys
-        from uictest.cli.entry import execute
-        code = execute(["sweep", sys.argv[1], "-q"])
-        loaded = "pandas" in sys.modules
-        import pandas
-        import pyarrow
-        table = pyarrow.Table.from_pandas(pandas.DataFrame({"a": pandas.Series([1.0, float("nan")])}))
-        print(code, loaded, table.column("a").null_count, table.to_pandas()["a"].isna().sum())
-    """
-    command = [sys.executable, "-c", program, str(path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=HANGING)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[-1] == "0 False 1 1"
 
 
 def test_the_child_of_a_controller_imports_nothing_of_scenarios():
@@ -116,44 +97,11 @@ def test_a_full_disk_exits_3_and_leaves_nothing(process, scenario):
     assert not Path("reports").exists()
 
 
-def test_a_met_case_is_recorded_when_asked_and_a_missed_one_always(process, call, scenario):
-    scenario("stop", "matrix:\n  brake.command: [80 %, 90 %]\n")
-    answer = process("run", "--record", "all", "--record-rate", "50", "--format", "json")
-    assert answer.code == 0, answer.err
-    ids = ["stop[command=80]", "stop[command=90]"]
-    assert [case["id"] for case in json.loads(answer.out)["cases"]] == ids
-    assert "2 cases: 2 pass" in answer.err
-    assert sorted(path.stem for path in Path("reports/latest/recordings").iterdir()) == ids
-    scenario("stop")
-    answer = call("run", code=0)
-    assert answer.out.startswith(
-        "pass stop outcome=pass expect=pass test_validity=not_judged requirements=met braking_"
-    )
-    assert not Path("reports/latest/recordings").exists()
-    scenario("stop", "expect: invalid\n")
-    call("run", code=1)
-    assert Path("reports/latest/recordings/stop.parquet").is_file()
-
-
-def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_of_threads(call, scenario):
-    scenario("stop", "matrix:\n  rail.friction: [0.05, 0.1]\n  rail.condition: [wet]\n")
-    options = (["-n1"], ["-n2"], ["-n", "auto"], ["--record", "all", "--record-rate", "200"])
-    results = []
-    for given in options:
-        call("run", *given)
-        results.append(json.loads(Path("reports/latest/results.json").read_text())["cases"])
-    assert results == [results[0]] * len(options)
-
-
-def test_hostile_file_names_are_shown_as_text(call, scenario):
-    scenario("stop", file="[red]\x1b[31m\n::error::=1+1.yaml")
-    scenario("other", "nonsense: 1\n", file="[bold]\x1b[2J.yaml")
-    for arguments in (["check"], ["check", "--format", "github"], ["run"]):
-        answer = call(*arguments, code=4)
-        assert "\x1b" not in answer.out + answer.err
-        assert r"\x1b[2J" in answer.out + answer.err
-    Path("scenarios", "[bold]\x1b[2J.yaml").unlink()
-    for arguments in (["run", "--format", "text"], ["run", "--format", "github", "--set", "expect=fail"]):
-        answer = call(*arguments)
-        assert "\x1b" not in answer.out + answer.err
-        assert not [line for line in answer.out.splitlines() if line.startswith("::error::")]
+@pytest.mark.parametrize(("command", "cases"), [("run", "{}"), ("sweep", "vary: {{{}}}")])
+def test_a_kernel_that_cannot_be_used_ends_a_run_or_a_sweep_and_is_no_result_of_cases(
+    scenario, process, command, cases
+):
+    path = scenario(text=cases.format("matrix: {seed: [1, 2, 3]}"))
+    answer = process(command, path, env={**os.environ, "UICTEST_PROCESSOR": "none"})
+    assert (answer.code, answer.out) == (3, "")
+    assert answer.err.count("this processor runs") == 1

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.core.recording import Recording, parquet_bytes
+from uictest.core.recording import parquet_bytes
 
-from .conftest import STATED, rolling_train
+from .conftest import STATED, caliper, rolling_train
 
 SUFFIXES = {"page": ".html", "recording": ".csv", "fmu": ".fmu", "part": ".yaml", "junit": ".xml"}
 WRITING = {
@@ -63,6 +63,7 @@ def made(call, scenario, made_up, monkeypatch):
     text = "schema: uictest/scenario/1\nname: two\nextends: scenarios/stop.yaml\n"
     Path("two.sweep.yaml").write_text(text + "vary: {matrix: {seed: [1, 2]}}\n")
     Path("stop.parquet").write_bytes(parquet_bytes(rolling_train()))
+    Path("lines.parquet").write_bytes(parquet_bytes(caliper()))
     _write_log()
     text = "schema: uictest/validation/1\nname: my\nstops:\n"
     text += "  - {scenario: scenarios/stop.yaml, recordings: [stop.parquet]}\n"
@@ -72,17 +73,6 @@ def made(call, scenario, made_up, monkeypatch):
     Path("file").touch()
     Path("circle").symlink_to("circle")
     return made_up
-
-
-@pytest.fixture
-def lines():
-    """A caliper of straight lines, released between two brakings."""
-    time = 0.001 * np.arange(22_001)
-    pressure = np.interp(time, [0, 5, 10, 13, 16, 19, 22], [0, 4, 0, 3, 0.5, 4, 0])
-    channels = {"time": time, "cylinder_pressure_1": pressure, "clamping_force_1": 4.2 * pressure}
-    channels["valve_command_1"] = np.zeros(len(time))
-    units = {"time": "s", "cylinder_pressure_1": "bar", "clamping_force_1": "kN", "valve_command_1": "1"}
-    Path("lines.parquet").write_bytes(parquet_bytes(Recording(channels, units)))
 
 
 def _write_log():
@@ -124,23 +114,35 @@ def test_a_place_that_cannot_be_is_named(call, made, name, place):
 
 
 @pytest.mark.parametrize("name", sorted(LONG_RUNNING))
-def test_nothing_is_computed_for_a_place_that_cannot_be_unless_it_says_so(call, name, lines):
+def test_nothing_is_computed_for_a_place_that_cannot_be_unless_it_says_so(call, name):
     answer = call(*arguments_for(name, "file/inner"), code=3)
     assert answer.err.splitlines()[-1].startswith(_named("file/inner"))
     assert answer.out == "" or name in COMPUTED_FIRST
 
 
+@pytest.fixture
+def fill(monkeypatch):
+    """Let the disk be full after so many files."""
+
+    def fill(files):
+        synced = []
+
+        def sync(descriptor):
+            synced.append(descriptor)
+            if len(synced) > files:
+                raise OSError(errno.ENOSPC, "No space left on device")
+
+        monkeypatch.setattr(os, "fsync", sync)
+
+    return fill
+
+
 @pytest.mark.parametrize("name", [name for name in WRITING if name not in LONG_RUNNING])
-def test_a_full_disk_ends_every_command_alike_and_leaves_nothing(call, monkeypatch, name):
+def test_a_full_disk_ends_every_command_alike_and_leaves_nothing(call, fill, name):
     before = tree()
-
-    def full(descriptor):
-        raise OSError(errno.ENOSPC, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", full)
+    fill(0)
     target = "new/inner" if "FOLDER" in WRITING[name] else "inner"
-    answer = call(*arguments_for(name, target), code=3)
-    last = answer.err.splitlines()[-1]
+    last = call(*arguments_for(name, target), code=3).err.splitlines()[-1]
     assert last.startswith("uictest: cannot write ")
     assert last.endswith(": No space left on device")
     after = tree()
@@ -148,44 +150,21 @@ def test_a_full_disk_ends_every_command_alike_and_leaves_nothing(call, monkeypat
 
 
 @pytest.mark.parametrize("name", ["init", "init, scenarios", "init controller", "schema", "log, stops"])
-def test_a_disk_that_fills_up_meanwhile_leaves_nothing_half_written(call, monkeypatch, name):
+def test_a_disk_that_fills_up_meanwhile_leaves_nothing_half_written(call, fill, name):
     Path("place").mkdir()
     Path("place", "own.txt").write_text("of the user")
     if name == "log, stops":
         Path("place", "own.txt").unlink()
         call(*arguments_for(name, "place"), code=1)
     before = tree()
-    synced = []
-
-    def filling(descriptor):
-        synced.append(descriptor)
-        if len(synced) > 1:
-            raise OSError(errno.ENOSPC, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", filling)
+    fill(1)
     answer = call(*arguments_for(name, "place"), code=3)
     assert "place/" in answer.err.splitlines()[-1]
     assert tree() == before
 
 
-def test_what_was_exported_before_the_disk_was_full_is_announced_and_stays(call, monkeypatch):
-    synced = []
-
-    def filling(descriptor):
-        synced.append(descriptor)
-        if len(synced) > 1:
-            raise OSError(errno.ENOSPC, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", filling)
+def test_what_was_exported_before_the_disk_was_full_is_announced_and_stays(call, fill):
+    fill(1)
     answer = call("export", "stop.parquet", "--to", "csv,parquet", "-o", "new", code=3)
     assert answer.out.split() == [str(path) for path in Path("new").iterdir()] == ["new/stop.csv"]
     assert answer.err == "uictest: cannot write new/stop.parquet: No space left on device\n"
-
-
-def test_a_file_that_is_there_is_a_usage_error_and_stays(call):
-    """Not that it cannot be written: somebody may want to keep it."""
-    Path("stop.csv").write_text("mine")
-    call("export", "stop.parquet", "--to", "csv", code=4, says="already there: stop.csv")
-    call("init", code=0)
-    call("init", code=4, says="already there: scenarios/first-stop.yaml")
-    assert Path("stop.csv").read_text() == "mine"

@@ -60,9 +60,6 @@ def test_a_file_that_is_missing_says_what_ships(workplace, name, hint):
     with pytest.raises(ScenarioErrors, match="no such file") as raised:
         uictest.load(name)
     assert hint in str(raised.value)
-
-
-def test_a_missing_file_of_another_name_gets_no_such_hint(workplace):
     with pytest.raises(ScenarioErrors) as raised:
         uictest.load("own.yaml")
     assert "ship" not in str(raised.value)

@@ -1,9 +1,12 @@
-"""`--trust`: folders that references may lead into."""
+"""`--trust`: folders that references may lead into; and what foreign code they lead to, a run alone runs."""
 
 import os
+import zipfile
 from pathlib import Path
 
 import pytest
+
+from ..c_compiler import build_library
 
 HEAD = "schema: uictest/scenario/1\nname: stop\n"
 SWEEP = "schema: uictest/scenario/1\nname: s\nextends: stop.yaml\nvary: {matrix: {seed: [1, 2]}}\n"
@@ -42,13 +45,7 @@ def test_a_reference_out_of_the_folders_given_needs_trust(call, inside, command)
 
 @pytest.mark.parametrize(
     "command",
-    [
-        ["check"],
-        ["list"],
-        ["run"],
-        ["sweep", "s.sweep.yaml"],
-        ["evaluate", "stop.csv"],
-    ],
+    [["check"], ["list"], ["run"], ["sweep", "s.sweep.yaml"], ["evaluate", "stop.csv"]],
     ids=" ".join,
 )
 def test_commands_that_read_scenarios_take_folders_to_trust(call, inside, command):
@@ -68,7 +65,7 @@ def test_folders_of_the_option_and_of_the_environment_are_trusted_together(call,
         ["fit", "stop.csv", "--scenario", "stop.yaml"],
         ["bench", "triangular"],
         ["identify", "hysteresis", "stop.csv"],
-        ["export-rig", "stop.yaml"],
+        ["export-rig", "stop.yaml", "--case", "none"],
         ["library", "show", "stop.yaml"],
     ],
     ids=" ".join,
@@ -108,3 +105,59 @@ def test_links_and_parts_that_lead_out_are_named_by_file_and_key(call, inside):
     assert "top secret" not in answer.err
     (inside / "mine.yaml").write_text("schema: uictest/controller/1\nname: mine\nextends: ../beside/c.yaml\n")
     assert "mine.yaml:3:10: extends: '../beside/c.yaml' leads out" in call("library", "show", "mine.yaml").err
+
+
+DESCRIPTION = '<?xml version="1.0"?><fmiModelDescription fmiVersion="2.0" modelName="wsp" version="1"/>'
+READING = [
+    ["check", "stop.yaml"],
+    ["check", "s.sweep.yaml"],
+    ["list", "stop.yaml"],
+    ["list", "s.sweep.yaml"],
+    ["schema"],
+    ["run", "stop.yaml", "--dry-run"],
+    ["sweep", "s.sweep.yaml", "--dry-run"],
+]
+
+
+def _program(path, mark):
+    path.write_text(
+        f"open({str(mark)!r}, 'w').close()\nclass Wsp: ...\n"
+        "PARAMETERS = {'share': {'default': 0.0, 'unit': '1'}}\n"
+    )
+    return f"{{python: {path.name}, class: Wsp, parameters: {{share: 0.5}}}}"
+
+
+def _library(path, mark):
+    """Compile a library that creates a file as soon as it is loaded."""
+    source = path.with_suffix(".c")
+    source.write_text(
+        "#include <stdio.h>\n"
+        f'__attribute__((constructor)) static void load(void) {{ fclose(fopen("{mark}", "w")); }}\n'
+    )
+    build_library(path, source)
+    path.chmod(0o644)
+    return f"{{library: {path.name}}}"
+
+
+def _fmu(path, mark):
+    """Write an FMU whose binary creates a file as soon as it is loaded."""
+    _library(path.with_name("inside.so"), mark)
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("modelDescription.xml", DESCRIPTION)
+        archive.write(path.with_name("inside.so"), "binaries/linux64/wsp.so")
+    return f"{{fmu: {path.name}}}"
+
+
+@pytest.mark.parametrize(("name", "write"), [("wsp.py", _program), ("wsp.so", _library), ("wsp.fmu", _fmu)])
+def test_foreign_code_is_loaded_by_a_run_and_by_nothing_that_only_reads_files(call, workplace, name, write):
+    mark = workplace / "loaded"
+    controller = write(workplace / name, mark)
+    (workplace / "stop.yaml").write_text(f"{HEAD}initial_speed: 20 km/h\ncontroller: {controller}\n")
+    (workplace / "s.sweep.yaml").write_text(SWEEP)
+    for command in READING:
+        call(*command, code=0)
+        assert not mark.exists(), command
+    if name != "wsp.fmu":
+        # So that the lines above prove something; what is loaded here is no controller.
+        call("run", "stop.yaml", code=3)
+        assert mark.exists()

@@ -5,14 +5,18 @@ import pytest
 from hypothesis import given, strategies as st
 from hypothesis.extra import numpy as arrays
 
-from uictest.analysis.comparison.common_samples import (
+from uictest.analysis.comparison.overlay import (
     Sampled,
     channel_difference,
     common_samples,
+    curves_over_time,
+    over_common_distance,
     over_distance,
+    sampling_remarks,
 )
-from uictest.analysis.comparison.overlay import curves_over_time, over_common_distance, sampling_remarks
 from uictest.core.recording import Recording
+
+from .conftest import make_recording
 
 
 def _ramp(at):
@@ -52,7 +56,7 @@ def test_a_state_is_read_at_its_last_sample_and_not_between_two():
     np.testing.assert_array_equal(common_samples(valve, late).first, [1.0, 1.0])
 
 
-def test_a_state_is_drawn_in_steps(make_recording):
+def test_a_state_is_drawn_in_steps():
     valve = np.where(np.arange(101) >= 50, 2.0, 0.0)
     first, second = make_recording(valve_command_1=valve), make_recording(valve_command_1=np.zeros(101))
     difference = channel_difference("valve_command_1", first, second)
@@ -62,7 +66,7 @@ def test_a_state_is_drawn_in_steps(make_recording):
     assert curve.y[np.isclose(curve.x, 5.0)].tolist() == [0.0, 2.0]
 
 
-def test_the_worst_instant_and_the_mean_of_a_known_difference(make_recording):
+def test_the_worst_instant_and_the_mean_of_a_known_difference():
     first = make_recording(0.1)
     time = make_recording(0.5)["time"]
     # Beside the line of the first: 0 to 2 m/s too fast, the most at 6.5 s.
@@ -76,7 +80,7 @@ def test_the_worst_instant_and_the_mean_of_a_known_difference(make_recording):
     np.testing.assert_allclose(found.samples.difference, shift, atol=1e-12)
 
 
-def test_over_distance_the_speed_is_compared_at_the_same_place(make_recording):
+def test_over_distance_the_speed_is_compared_at_the_same_place():
     """Both brake with 1 m/s2, the second from 1 m/s more: v2 = v0**2 - 2 a s at every place."""
     time = make_recording(0.01)["time"]
     first, second = (
@@ -104,14 +108,14 @@ def test_over_distance_the_speed_is_compared_at_the_same_place(make_recording):
         (np.arange(101.0) + 500.0, "A and B share no distance"),
     ],
 )
-def test_where_distance_makes_no_sense_it_is_said(make_recording, distance, reason):
+def test_where_distance_makes_no_sense_it_is_said(distance, reason):
     first = make_recording(distance=np.arange(101.0))
     second = make_recording() if distance is None else make_recording(distance=distance)
     found = over_common_distance(first, second, ["speed"])
     assert (dict(found.curves), found.why_not) == ({}, reason)
 
 
-def test_a_train_that_swings_back_as_it_stops_is_compared_over_distance(make_recording):
+def test_a_train_that_swings_back_as_it_stops_is_compared_over_distance():
     distance = np.arange(101.0)
     distance[99:] = [97.8, 97.5]
     read = over_distance(make_recording(distance=distance), "speed")
@@ -119,7 +123,7 @@ def test_a_train_that_swings_back_as_it_stops_is_compared_over_distance(make_rec
     assert len(read.at) == 99
 
 
-def test_what_was_not_compared_and_how_is_stated(make_recording):
+def test_what_was_not_compared_and_how_is_stated():
     assert list(sampling_remarks(make_recording(), make_recording())) == []
     remarks = list(sampling_remarks(make_recording(0.1), make_recording(0.25, end=8.0)))
     between = "and is read off straight lines between its samples"

@@ -12,7 +12,7 @@ from hypothesis.extra import numpy as arrays
 from uictest.analysis.comparison import Tolerances, compare_recordings
 from uictest.core.recording import Recording, recording_of
 from uictest.core.recording.formats import FORMATS, Dialect, encoded
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 
 INTERVALS = st.sampled_from([0.001, 0.01, 0.01 / 3.0, 0.1, 0.25])
 STARTS = st.sampled_from([0.0, 0.07, 12.3, 86_399.99, 1.7e9])

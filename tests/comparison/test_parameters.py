@@ -14,6 +14,8 @@ from uictest.analysis.comparison.parameters import change_text
 from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import document_lines
 
+from .conftest import make_run
+
 
 def controller(slip, name="threshold"):
     parameter = Parameter("controller.slip_threshold", slip / 3.6, "m/s", f"{slip:g} km/h", "user")
@@ -29,7 +31,7 @@ def compared(make_run, first, second, **changes):
     return compare_runs(run_with(make_run(), first), run_with(make_run(**changes), second), Tolerances())
 
 
-def test_the_parameter_that_changed_is_named(make_run):
+def test_the_parameter_that_changed_is_named():
     found = compared(make_run, controller(4), controller(3), braking_distance_m=470.0)
     assert found.parameters == [
         ParameterChange(
@@ -48,13 +50,13 @@ def test_the_parameter_that_changed_is_named(make_run):
     assert "var uPlot=" not in html  # nothing is drawn
 
 
-def test_a_changed_parameter_is_an_explanation_told_once_and_no_difference(make_run):
+def test_a_changed_parameter_is_an_explanation_told_once_and_no_difference():
     found = compared(make_run, controller(4), controller(3))
     assert (found.agrees, list(found.notes)) == (True, [])
     assert compared(make_run, controller(4), controller(4)).parameters == []
 
 
-def test_another_part_is_named_as_well_as_its_parameters(make_run):
+def test_another_part_is_named_as_well_as_its_parameters():
     found = compared(make_run, controller(4), controller(3, "mine"))
     assert [change_text(change) for change in found.parameters] == [
         "controller: threshold -> mine",
@@ -81,7 +83,7 @@ def told_by(make_run, version, stated=""):
         (("1.2", "1.2"), ("1.3", "1.2"), ["controller.told_version: none -> 1.3"]),
     ],
 )
-def test_another_version_that_a_controller_tells_is_named(make_run, first, second, changes):
+def test_another_version_that_a_controller_tells_is_named(first, second, changes):
     found = compare_runs(told_by(make_run, *first), told_by(make_run, *second), Tolerances())
     assert found.agrees
     assert [change_text(change) for change in found.parameters] == changes

@@ -3,8 +3,6 @@
 import dataclasses
 from xml.etree import ElementTree
 
-import pytest
-
 from uictest.analysis.comparison import (
     Baseline,
     Scope,
@@ -28,35 +26,30 @@ from uictest.report import (
 )
 from uictest.report.run_folder import baseline_form, read_baseline_comparison
 
+from .conftest import make_repeated
 
-@pytest.fixture
-def make_series(make_repeated):
+
+def make_series(
+    wet, status="pass", name="acceptance", parameters=None, not_counted=(), keys=("00000007", "00000009")
+):
     """A series of one dry and several wet stops from 120 km/h, the wet ones under two frictions."""
-
-    def make(
-        wet, status="pass", name="acceptance", parameters=None, not_counted=(), keys=("00000007", "00000009")
-    ):
-        cases = [series.SeriesCase("dry", 120.0, make_repeated({1: 460.0}, f"{name}.dry"))]
-        for key, friction in zip(keys, ("0.07", "0.09"), strict=True):
-            case_id = f"{name}.wet[friction={friction}]"
-            case = make_repeated(
-                dict(enumerate(wet, 1)), case_id, key, parameters={"rail.friction": friction}
-            )
-            cases.append(series.SeriesCase("wet", 120.0, case))
-        extension = SeriesValue(mean_of([each - 460.0 for each in wet], 0.95))
-        measures = {"deceleration_distance_extension": extension, "k_wet": SeriesValue(None, "no wet stop")}
-        verdict = Verdict("k-wet", "requirement", 0.87, "1", 0.8, None, 0.07, status, "")
-        counts = series.StopCounts(1, 1), series.StopCounts(2 * len(wet), 2 * len(wet) - len(not_counted))
-        return series.SeriesResult(
-            *(name, "acceptance.series.yaml", "", parameters or {}, PASS, "pass", "", 0.95, 0.8, 3.0),
-            criteria=(series.SeriesVerdict(verdict),),
-            measures=measures,
-            speeds=(series.SpeedResult(120.0, *counts, measures),),
-            not_counted=not_counted,
-            cases=tuple(cases),
-        )
-
-    return make
+    cases = [series.SeriesCase("dry", 120.0, make_repeated({1: 460.0}, f"{name}.dry"))]
+    for key, friction in zip(keys, ("0.07", "0.09"), strict=True):
+        case_id = f"{name}.wet[friction={friction}]"
+        case = make_repeated(dict(enumerate(wet, 1)), case_id, key, parameters={"rail.friction": friction})
+        cases.append(series.SeriesCase("wet", 120.0, case))
+    extension = SeriesValue(mean_of([each - 460.0 for each in wet], 0.95))
+    measures = {"deceleration_distance_extension": extension, "k_wet": SeriesValue(None, "no wet stop")}
+    verdict = Verdict("k-wet", "requirement", 0.87, "1", 0.8, None, 0.07, status, "")
+    counts = series.StopCounts(1, 1), series.StopCounts(2 * len(wet), 2 * len(wet) - len(not_counted))
+    return series.SeriesResult(
+        *(name, "acceptance.series.yaml", "", parameters or {}, PASS, "pass", "", 0.95, 0.8, 3.0),
+        criteria=(series.SeriesVerdict(verdict),),
+        measures=measures,
+        speeds=(series.SpeedResult(120.0, *counts, measures),),
+        not_counted=not_counted,
+        cases=tuple(cases),
+    )
 
 
 def _compared(first, second):
@@ -64,7 +57,7 @@ def _compared(first, second):
     return compare_runs(*runs, Tolerances())
 
 
-def test_a_series_and_itself_agree(make_series):
+def test_a_series_and_itself_agree():
     found = _compared([make_series([500.0, 510.0])], [make_series([500.0, 510.0])])
     assert found.agrees
     # The outcome, a criterion, the dry and the wet stops that count, two measures.
@@ -75,7 +68,7 @@ def test_a_series_and_itself_agree(make_series):
 LEFT_OUT = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
 
 
-def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series):
+def test_verdicts_counts_and_measures_of_a_series_are_compared():
     before = [make_series([500.0, 510.0])]
     (missing,) = _compared(before, []).beyond
     assert (missing.case, missing.first, missing.second) == ("acceptance", "pass", "missing")
@@ -88,7 +81,7 @@ def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series):
     ]
 
 
-def test_the_wet_stops_that_count_on_both_sides_pair(make_series):
+def test_the_wet_stops_that_count_on_both_sides_pair():
     before = make_series([500.0, 510.0])
     (group,) = _compared([before], [make_series([501.0, 513.0])]).paired.groups
     assert (group.name, group.pairs) == ("acceptance, wet stops from 120 km/h", 4)
@@ -103,7 +96,7 @@ def test_the_wet_stops_that_count_on_both_sides_pair(make_series):
     assert (group.pairs, group.unpaired) == (2, (2, 0))
 
 
-def test_stops_of_a_series_that_met_the_same_noise_are_told_apart(make_series):
+def test_stops_of_a_series_that_met_the_same_noise_are_told_apart():
     """As those on a rail that sliding cleans and on one that it does not: their friction is the same."""
     keys = ("00000007", "00000007")
     found = _compared([make_series([500.0, 510.0], keys=keys)], [make_series([501.0, 513.0], keys=keys)])
@@ -114,7 +107,7 @@ def test_stops_of_a_series_that_met_the_same_noise_are_told_apart(make_series):
     assert "only 2 draws of noise, so that the intervals are too narrow" in line
 
 
-def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series):
+def test_series_of_one_run_pair_over_the_keys_that_make_them():
     variants = [
         make_series([500.0, 510.0], name="wsp[controller=a]", parameters={"controller": "a"}),
         make_series([490.0, 500.0], name="wsp[wsp=bypassed]", parameters={"rig.wsp": "bypassed"}),
@@ -127,20 +120,15 @@ def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series):
     assert distance.mean.value == -10.0
 
 
-@pytest.fixture
-def make_baseline():
+def make_baseline(accepted, selected=(), searched=()):
     """A baseline of series, and which of them a later run selects."""
-
-    def make(accepted, selected=(), searched=()):
-        run = RunContent("run", [], series=accepted)
-        scope = Scope(frozenset(selected), searched)
-        document = {"cases": [], "manifest": {}, "series": series.series_document(accepted)}
-        return Baseline("kept", "", run, {}, document, scope, Tolerances())
-
-    return make
+    run = RunContent("run", [], series=accepted)
+    scope = Scope(frozenset(selected), searched)
+    document = {"cases": [], "manifest": {}, "series": series.series_document(accepted)}
+    return Baseline("kept", "", run, {}, document, scope, Tolerances())
 
 
-def test_a_baseline_compares_verdicts_and_measures_of_series(make_series, make_baseline):
+def test_a_baseline_compares_verdicts_and_measures_of_series():
     before = make_series([500.0, 510.0])
     baseline = make_baseline([before], ["acceptance"])
     same = baseline.compare(RunContent("run", [], series=[before]))
@@ -154,7 +142,7 @@ def test_a_baseline_compares_verdicts_and_measures_of_series(make_series, make_b
     assert found.series == {"acceptance": "acceptance.series.yaml"}
 
 
-def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs(make_series, make_baseline):
+def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs():
     new, old = make_series([500.0], name="new"), make_series([500.0], name="old")
     baseline = make_baseline([old], ["new"], ["acceptance.series.yaml"])
     found = baseline.compare(RunContent("run", [], series=[new]))
@@ -163,7 +151,7 @@ def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs(make_series
     assert (sorted(found.series), found.series_not_compared, found.compared) == (["new", "old"], [], 2)
 
 
-def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted(make_series, make_baseline):
+def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted():
     old, new = make_series([500.0], name="old"), make_series([500.0], name="new")
     baseline = make_baseline([old], ["new"])
     found = baseline.compare(RunContent("run", [], series=[]))
@@ -180,17 +168,17 @@ def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted(make_
     assert [each["id"] for each in accepted_document(run, dropping)["series"]["series"]] == ["new"]
 
 
-def test_a_series_that_differs_is_in_every_report_for_machines(make_series, make_baseline):
+def test_a_series_that_differs_is_in_every_report_for_machines():
     after = [make_series([500.0], "fail")]
     found = make_baseline([make_series([500.0])]).compare(RunContent("run", [], series=after))
     sentence = "baseline: criterion k-wet was pass, is fail"
-    suites = ElementTree.fromstring(junit_text(run_suites([], found)))
+    content = RunContent("run", [], series=after, baseline=found)
+    suites = ElementTree.fromstring(junit_text(run_suites(content)))
     failure = suites.find(".//testcase[@name='acceptance']/failure")
     assert (failure.get("type"), failure.text) == ("baseline", sentence)
     assert list(missing_lines(found)) == [f"differs acceptance reason={sentence}"]
     assert list(missing_annotations(found)) == [
         f"::error file=acceptance.series.yaml,title=differs acceptance::{sentence}"
     ]
-    content = RunContent("run", [], series=after, baseline=found)
     assert content.tally.endswith("; 1 series different from the baseline")
     assert read_baseline_comparison({"baseline": baseline_form(found)}) == found

@@ -14,16 +14,27 @@ from uictest.analysis.comparison import (
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report import RunContent, document_lines
 
+from .conftest import make_recording, make_run
+
 DEFAULT = Tolerances()
 COMPARED = len(STOP_COLUMNS) + 2 * len(WHEELSET_COLUMNS) + 2
 """Figures of a stop with two wheelsets, its outcome and the verdict of a criterion."""
 HOSTILE = "\x1b[31m=cmd() <b>x</b></script>\u202e"
 
 
-def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run):
+def test_only_what_is_out_of_tolerance_is_shown_unless_asked():
     found = compare_runs(make_run(), make_run(braking_distance_m=470.0, braking_time_s=27.51), DEFAULT)
     heading, line = document_lines(comparison_document(found), None)
-    assert heading.split() == ["case", "quantity", "first", "second", "deviation", "allowed", "unit"]
+    assert heading.split() == [
+        "verdict",
+        "case",
+        "quantity",
+        "first",
+        "second",
+        "deviation",
+        "allowed",
+        "unit",
+    ]
     assert line.split()[:5] == ["differs", "dry-120", "braking_distance_m", "465", "470"]
     rows = document_lines(comparison_document(found, every=True), None)
     assert [row.split()[0] for row in rows][1:] == ["differs", "within"]
@@ -34,7 +45,7 @@ def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run):
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
-def test_on_a_narrow_terminal_the_case_stands_above_its_figures(make_run, width):
+def test_on_a_narrow_terminal_the_case_stands_above_its_figures(width):
     case_id = "wet-80-friction[friction=0.10,command=80]"
     changes = {"braking_distance_m": 470.0, "verdict": "fail"}
     found = compare_runs(make_run(case_id=case_id), make_run(case_id=case_id, **changes), DEFAULT)
@@ -46,13 +57,13 @@ def test_on_a_narrow_terminal_the_case_stands_above_its_figures(make_run, width)
     assert [name for name in hidden if name not in lines[-1]] == []
 
 
-def test_nothing_is_shown_of_what_is_the_same(make_run):
+def test_nothing_is_shown_of_what_is_the_same():
     found = compare_runs(make_run(), make_run(), DEFAULT)
     assert list(document_lines(comparison_document(found, every=True), None)) == []
     assert verdict_line(found) == f"{COMPARED} quantities compared, no difference"
 
 
-def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page(make_recording):
+def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page():
     channels = {HOSTILE: np.zeros(101)}
     found = compare_recordings(
         make_recording(**channels), make_recording(**{HOSTILE: np.ones(101)}), (HOSTILE, HOSTILE), DEFAULT
@@ -67,7 +78,7 @@ def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page(make
     assert "&lt;b&gt;x&lt;/b&gt;" in html
 
 
-def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for(make_run):
+def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for():
     before, after = make_run(), make_run()
     slid = [{**after.results[0].wheelsets[0], "maximum_slide": slide} for slide in (0.3, 0.4)]
     after = RunContent("after", [dataclasses.replace(after.results[0], wheelsets=tuple(slid))])

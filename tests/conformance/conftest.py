@@ -10,7 +10,7 @@ from uictest.plans import templates
 from uictest.plans.scenario import load_controller
 from uictest.rig.external import workers
 from uictest.selftest import conformance
-from uictest.selftest.conformance import situations
+from uictest.selftest.conformance import bench as situations
 
 Examine = Callable[..., selftest.Examination]
 

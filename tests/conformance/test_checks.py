@@ -11,7 +11,7 @@ from uictest.controllers import OUTPUTS
 from uictest.plans.scenario import load_part
 from uictest.selftest import conformance
 from uictest.selftest.conformance import checks
-from uictest.selftest.conformance.page import recording_of
+from uictest.selftest.conformance.checks import recording_of
 
 STEP = '        """Answer one controller cycle."""\n'
 RESULT = "            hold=[hold for hold, _ in states],\n            vent=[vent for _, vent in states],\n"

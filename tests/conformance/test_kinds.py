@@ -1,8 +1,6 @@
 """Every check of controllers, for every kind: the same controllers that ship, as each kind may hold them."""
 
-import os
 import re
-import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -12,11 +10,13 @@ from pathlib import Path
 import pytest
 
 from uictest.controllers import HEADER
-from uictest.controllers.adapters import registered
+from uictest.controllers.adapters import python_class
 from uictest.plans import templates
 from uictest.plans.scenario import load_controller
 from uictest.selftest import conformance
-from uictest.selftest.conformance import CHECKS, situations
+from uictest.selftest.conformance import CHECKS, bench as situations
+
+from ..c_compiler import c_compiler
 
 SOCKET = Path(__file__).parents[2] / "examples" / "socket"
 SLOW = "cycle_time: 40 ms\ntime_limit: 60 s\n"
@@ -48,10 +48,7 @@ def template(folder, language, program):
 
 
 def compiled(folder, target, *sources_and_options):
-    compiler = shutil.which(os.environ.get("CC", "gcc"))
-    if compiler is None:
-        pytest.skip("no C compiler")
-    command = [compiler, "-O2", "-ffp-contract=off", f"-I{HEADER.parent}", *sources_and_options]
+    command = [c_compiler(), "-O2", "-ffp-contract=off", f"-I{HEADER.parent}", *sources_and_options]
     subprocess.run([*command, "-o", target, "-lm"], cwd=folder, check=True)
 
 
@@ -81,9 +78,9 @@ def in_a_package(folder):
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(folder))
         patch.setenv("PYTHONPATH", str(folder))
-        registered._loaded.cache_clear()
+        python_class._registered_class.cache_clear()
         yield part(folder, "registered: acme-wsp\n")
-    registered._loaded.cache_clear()
+    python_class._registered_class.cache_clear()
     sys.modules.pop("my_wsp", None)
 
 

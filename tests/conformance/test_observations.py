@@ -9,9 +9,8 @@ import pytest
 from uictest.controllers import OUTPUTS
 from uictest.rig import Driven
 from uictest.selftest import conformance
-from uictest.selftest.conformance import situations
-from uictest.selftest.conformance.bench import Answers, Bench
-from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS
+from uictest.selftest.conformance import bench as situations
+from uictest.selftest.conformance.bench import ROLLS_AGAIN, SLIDE_BEGINS, Answers, Bench
 
 CYCLE = 0.05
 NEVER = float("inf")

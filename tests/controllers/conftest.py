@@ -61,11 +61,7 @@ def _threshold(speed, **changes):
 
 def _slip_band(speed):
     parameters = SimpleNamespace(
-        cycle_time=CYCLE,
-        lower_slide=0.08,
-        upper_slide=0.20,
-        reference_deceleration=1.8,
-        minimum_speed=1.4,
+        cycle_time=CYCLE, lower_slide=0.08, upper_slide=0.20, reference_deceleration=1.8, minimum_speed=1.4
     )
     return Bench(CONTROLLERS["slip-band"], parameters, speed)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.controllers import CONTROLLERS, TrainMemory
-from uictest.core.physics.valves import FILL, HOLD, VENT
+from uictest.core.physics.air import FILL, HOLD, VENT
 from uictest.core.record import fields_of, layout_of
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET, Car

@@ -132,10 +132,7 @@ def keys_of(model):
     return {field.alias or name for name, field in model.model_fields.items()}
 
 
-FRAMES = (
-    ("scenario", keys_of(Scenario), {"initial_speed": "120 km/h"}),
-    ("series", keys_of(SeriesFile), {}),
-)
+FRAMES = (("scenario", keys_of(Scenario), {"initial_speed": "120 km/h"}), ("series", keys_of(SeriesFile), {}))
 
 
 def content_of(text):

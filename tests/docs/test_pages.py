@@ -4,6 +4,7 @@ import dataclasses
 import re
 from pathlib import Path
 
+import pytest
 import yaml
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
@@ -27,6 +28,14 @@ def anchors(page):
     headings = re.findall(r"^#+ (.+)$", prose(page), re.MULTILINE)
     kept = (re.sub(r"[^\w\- ]", "", heading.lower()) for heading in headings)
     return {text.strip().replace(" ", "-") for text in kept}
+
+
+@pytest.mark.parametrize("guide", ["CONTRIBUTING.md", "docs/extending.md"])
+def test_every_module_that_contributors_are_led_to_exists(guide):
+    modules = {path.as_posix() for path in REPOSITORY.rglob("*.py")}
+    named = set(re.findall(r"[\w/]+\.py\b", (REPOSITORY / guide).read_text("utf-8")))
+    assert named
+    assert [name for name in named if not any(module.endswith(f"/{name}") for module in modules)] == []
 
 
 def test_every_link_leads_somewhere(page):

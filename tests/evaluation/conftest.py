@@ -4,7 +4,6 @@ from importlib import resources
 from pathlib import Path
 from types import SimpleNamespace
 
-import pytest
 import yaml
 
 from uictest.judging.evaluation import judge
@@ -13,29 +12,27 @@ from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
 from uictest.plans.scenario.yaml import parse_quantity
 
-from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
-
-__all__ = ["sliding_stop", "stop", "wheelsets"]
+from ..measures.catalogue.conftest import wheelsets
 
 
-def _criterion(measure="braking_distance", **fields):
+def criterion(measure="braking_distance", **fields):
     return Criterion.model_validate({"id": "tested", "layer": "validity", "measure": measure, **fields})
 
 
-def _profile(*criteria):
+def profile(*criteria):
     return Criteria(name="tested", criteria=criteria)
 
 
-def _written(name, folder="criteria"):
+def written(name, folder="criteria"):
     file = resources.files("uictest.plans.library") / folder / f"{name}.yaml"
     return yaml.safe_load(file.read_text("utf-8"))
 
 
-def _shipped(name):
-    return Criteria.model_validate(_written(name))
+def shipped(name):
+    return Criteria.model_validate(written(name))
 
 
-def _scenario(*profiles, condition="dry", **changes):
+def scenario(*profiles, condition="dry", **changes):
     settings = {
         "wsp": "active",
         "position": "R",
@@ -64,14 +61,14 @@ def _scenario(*profiles, condition="dry", **changes):
         simulation=SimpleNamespace(maximum_duration=SimpleNamespace(text="60 s")),
         criteria=profiles,
         judged_by=profiles,
-        measures=MeasureDefinitions.model_validate(_written("standard", "measures")),
+        measures=MeasureDefinitions.model_validate(written("standard", "measures")),
         expect=expectation_of(settings["expect"]),
         requirements=(),
         test_case=None,
     )
 
 
-def _case(scenario):
+def case(scenario):
     return SimpleNamespace(
         id="slip-120[friction=0.10]",
         scenario=scenario,
@@ -81,43 +78,8 @@ def _case(scenario):
     )
 
 
-@pytest.fixture(scope="session")
-def criterion():
-    return _criterion
-
-
-@pytest.fixture(scope="session")
-def profile():
-    return _profile
-
-
-@pytest.fixture(scope="session")
-def shipped():
-    return _shipped
-
-
-@pytest.fixture(scope="session")
-def written():
-    return _written
-
-
-@pytest.fixture(scope="session")
-def scenario():
-    return _scenario
-
-
-@pytest.fixture(scope="session")
-def case():
-    return _case
-
-
-@pytest.fixture(scope="session")
-def verdict_of(profile, scenario, wheelsets):
+def verdict_of(criterion, measures, records=None, coverage=None):
     """Judge a stop by one criterion."""
-
-    def judged(criterion, measures, records=None, coverage=None):
-        records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
-        (verdict,) = judge(scenario(profile(criterion)), measures, records, coverage=coverage)
-        return verdict
-
-    return judged
+    records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
+    (verdict,) = judge(scenario(profile(criterion)), measures, records, coverage=coverage)
+    return verdict

@@ -1,22 +1,38 @@
+"""From the measures of a stop to the result of its case."""
+
+import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from uictest.judging.evaluation import CaseResult, error_result, evaluate, evaluate_simulated
-from uictest.plans.scenario import expectation_of
+from uictest.controllers import ResponseTimes
+from uictest.judging.evaluation import (
+    CaseResult,
+    SimulatedRepeat,
+    cases_document,
+    error_result,
+    evaluate,
+    evaluate_repeats,
+    evaluate_simulated,
+    result_document,
+    results_of,
+)
+from uictest.plans.scenario import applies_to, expectation_of, load
+
+from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
+from .conftest import case, criterion, profile, scenario, shipped
 
 G = 9.80665
 
 
 @pytest.fixture
-def slip_test(shipped, scenario, case):
+def slip_test():
     return case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
 
 
-def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
-    slip_test, sliding_stop, wheelsets
-):
+def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(slip_test):
     records = wheelsets(
         0.9, 0.9, 0.9, 0.9, valve_actuations=11, maximum_clamping_force=41e3, air_vented=0.01185
     )
@@ -36,9 +52,7 @@ def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
     assert first["air_vented_nl"] == pytest.approx(10.0)
 
 
-def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
-    criterion, profile, scenario, case, sliding_stop, wheelsets
-):
+def test_the_figure_takes_the_first_phase_that_the_criterion_defines():
     speed = [30.0, 29.0, *[20.0] * 9]
     phase = {"first_phase_duration": {"value": "1 s", "range": ["1 s", "2 s"]}}
     slippery = profile(criterion("initial_adhesion", upper="0.2 g", definition=phase))
@@ -47,9 +61,7 @@ def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
     assert result.criteria[0].value == result.measures["initial_adhesion_g"]
 
 
-def test_a_stop_that_is_not_slippery_enough_is_invalid_and_a_figure_never_reached_is_nan(
-    slip_test, sliding_stop, wheelsets, stop
-):
+def test_a_stop_that_is_not_slippery_enough_is_invalid_and_a_figure_never_reached_is_nan(slip_test):
     result = evaluate(slip_test, sliding_stop(0.09 * G), wheelsets(0.9, 0.9, 0.9, 0.9))
     assert (result.outcome, result.met) == ("invalid", False)
     assert result.reason == "initial-adhesion: 0.09 g misses < 0.08 g by 0.01 g"
@@ -72,9 +84,7 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_a_figure_never_reache
         ),
     ],
 )
-def test_our_own_profile_judges_any_stop(
-    shipped, scenario, case, stop, wheelsets, changes, slides, outcome, what
-):
+def test_our_own_profile_judges_any_stop(changes, slides, outcome, what):
     profiles = shipped("uictest-stop"), shipped("uictest-rig")
     result = evaluate(case(scenario(*profiles)), stop(**changes), wheelsets(*slides))
     assert result.outcome == outcome
@@ -86,7 +96,7 @@ def test_our_own_profile_judges_any_stop(
     [(0.9, "pass", "pass"), (1.1, "fail", "invalid"), (math.nan, "inconclusive", "pass")],
 )
 def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
-    shipped, scenario, case, stop, wheelsets, monkeypatch, misfit, statuses, outcome
+    monkeypatch, misfit, statuses, outcome
 ):
     """What is not known leaves the outcome alone; without any other criterion there is no judgement."""
     monkeypatch.setattr("uictest.plans.scenario.misfits", lambda scenario: ["the lever ratio is 3"])
@@ -105,7 +115,7 @@ def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
     assert alone.outcome == ("invalid" if outcome == "invalid" else "skipped")
 
 
-def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, stop, wheelsets):
+def test_a_wheelset_that_stands_still_too_long_fails():
     records = wheelsets(1.0, 1.0, 1.0, 1.0, longest_lock=[0.2, 0.0, 6.5, 0.1])
     result = evaluate(case(scenario(shipped("uictest-stop"))), stop(), records)
     assert result.outcome == "fail"
@@ -143,13 +153,11 @@ def test_an_expectation_is_met_by_its_own_outcome(outcome, expect, met):
 
 
 @pytest.fixture
-def sound_test(shipped, scenario, case):
+def sound_test():
     return case(scenario(shipped("uictest-stop"), condition="dry"))
 
 
-def test_a_stop_with_finite_measures_is_judged_and_a_wheelset_without_is_an_error_and_named(
-    sound_test, stop, wheelsets
-):
+def test_a_stop_with_finite_measures_is_judged_and_a_wheelset_without_is_an_error_and_named(sound_test):
     # The minimum deceleration is NaN where the stop ended before the brake was developed.
     undeveloped = stop(minimum_deceleration=math.nan)
     result = evaluate_simulated(sound_test, undeveloped, wheelsets(0.0, 0.0, 0.0, 0.0))
@@ -163,16 +171,107 @@ def test_a_stop_with_finite_measures_is_judged_and_a_wheelset_without_is_an_erro
 @pytest.mark.parametrize(
     "name", ["air_residual", "air_energy_residual", "energy_residual", "air_consumed", "end_distance"]
 )
-def test_a_measure_of_the_stop_that_is_no_number_is_an_error_not_a_verdict(
-    sound_test, stop, wheelsets, name, value
-):
+def test_a_measure_of_the_stop_that_is_no_number_is_an_error_not_a_verdict(sound_test, name, value):
     result = evaluate_simulated(sound_test, stop(**{name: value}), wheelsets(0.0, 0.0, 0.0, 0.0), 2.5)
     assert (result.outcome, result.criteria, result.duration) == ("error", (), 2.5)
     assert f"no finite {name}" in result.reason
 
 
-def test_a_stop_that_takes_no_air_has_no_balances_of_the_air(sound_test, stop, wheelsets):
+def test_a_stop_that_takes_no_air_has_no_balances_of_the_air(sound_test):
     measures = stop(air_consumed=0.0, air_residual=math.nan, air_energy_residual=math.nan, end_time=0.086)
     result = evaluate_simulated(sound_test, measures, wheelsets(0.0, 0.0, 0.0, 0.0))
     assert result.outcome == "error"
     assert "ended after 0.086 s, before the brake took any air" in result.reason
+
+
+IN_TIME = ResponseTimes(1770, 0.01, 0, 0.0012, 700, 0.0003)
+LATE = replace(IN_TIME, missed_deadlines=3, longest_answer_s=0.0314)
+
+
+def judged(times, limit="500 m"):
+    """Judge a stop of 465 m by one requirement on its distance."""
+    judged_as = case(scenario(profile(criterion(layer="requirement", upper=limit))))
+    return evaluate_simulated(judged_as, stop(), wheelsets(), response_times=times)
+
+
+def test_a_stop_without_a_missed_deadline_is_judged_as_any_other():
+    with_clock, without = cases_document([replace(judged(IN_TIME), response_times=None), judged(None)])
+    assert with_clock == without
+    assert with_clock["outcome"] == "pass"
+
+
+def test_a_missed_deadline_makes_a_stop_invalid_before_a_failed_requirement_and_says_how_late():
+    result = judged(LATE)
+    assert result.outcome == "invalid"
+    assert result.reason == (
+        "real-time: 3 of 1770 answers came after the end of their cycle of 10 ms; the longest took 31.4 ms"
+        " (cycle 700)"
+    )
+    assert (result.criteria[-1].value, result.criteria[-1].upper) == (3.0, 0.0)
+    assert judged(None, "400 m").outcome == "fail"
+    assert judged(LATE, "400 m").outcome == "invalid"
+    assert judged(replace(IN_TIME, missed_deadlines=1)).outcome == "invalid"
+
+
+def test_the_document_has_response_times_in_real_time_only_and_they_are_read_back():
+    with_clock, without = cases_document([judged(LATE), judged(None)])
+    assert with_clock["response_times"] == {
+        "answers": 1770,
+        "cycle_time_s": 0.01,
+        "missed_deadlines": 3,
+        "longest_answer_s": 0.0314,
+        "longest_answer_cycle": 700,
+        "start_jitter_s": 0.0003,
+    }
+    assert set(with_clock) - set(without) == {"response_times"}
+    result = judged(LATE)
+    document = json.loads(json.dumps(result_document([result])))
+    assert results_of(document)[0].response_times == LATE
+
+
+TEXT = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 120 km/h
+requirements: [BR-1]
+test_case: WSP-TC-7
+criteria:
+  name: own
+  criteria:
+    - {id: short, layer: requirement, measure: braking_distance, upper: 900 m, requirements: [BR-2, BR-1]}
+    - id: slow
+      layer: requirement
+      measure: braking_distance
+      upper: 900 m
+      applies: {initial_speed: {value: 80 km/h, tolerance: 4 km/h}}
+      requirements: [BR-3]
+"""
+
+
+@pytest.fixture
+def named(tmp_path):
+    """A stop from 120 km/h that names requirements, and so do two criteria, one of them for 80 km/h."""
+    (tmp_path / "stop.yaml").write_text(TEXT)
+    (case,) = load([tmp_path])
+    return case
+
+
+def test_a_result_has_the_ids_of_the_case_and_each_verdict_those_of_its_criterion(named):
+    result = evaluate(named, stop(), wheelsets(0.0, 0.0, 0.0, 0.0))
+    assert (result.requirements, result.test_case) == (("BR-1",), "WSP-TC-7")
+    own = [verdict.requirements for verdict in result.criteria if verdict.layer != "rig"]
+    assert own == [("BR-2", "BR-1"), ("BR-3",)]
+
+
+def test_a_case_that_could_not_be_judged_hides_no_requirement_repeated_or_not(named):
+    assert error_result(named, "diverged").requirements == ("BR-1", "BR-2", "BR-3")
+    records = stop(), wheelsets(0.0, 0.0, 0.0, 0.0)
+    sound = SimulatedRepeat(0, evaluate(named, *records, detail="status"), *records)
+    assert evaluate_repeats(named, [sound, sound]).requirements == ("BR-1",)
+    failed = SimulatedRepeat(1, error_result(named, "diverged"))
+    assert evaluate_repeats(named, [sound, failed]).requirements == ("BR-1", "BR-2", "BR-3")
+
+
+def test_whether_a_criterion_applies_is_known_before_the_stop(named):
+    (profile,) = named.scenario.criteria
+    assert [applies_to(criterion, named.scenario) for criterion in profile.criteria] == [True, False]

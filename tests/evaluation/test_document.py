@@ -18,6 +18,9 @@ from uictest.judging.evaluation import (
     to_json,
 )
 
+from ..measures.catalogue.conftest import stop, wheelsets
+from .conftest import case, scenario, shipped
+
 CASE = [
     *("id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"),
     "parts",
@@ -68,7 +71,7 @@ WHEELSET = [
 
 
 @pytest.fixture
-def results(shipped, scenario, case, stop, wheelsets):
+def results():
     slip_test = case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
     dry = case(scenario(shipped("uic-541-05-appendix-b"), shipped("uictest-stop")))
     results = [

@@ -2,8 +2,7 @@
 
 import pytest
 
-from uictest.judging.evaluation import parts_document
-from uictest.judging.evaluation.effective_parts import EffectiveParts
+from uictest.judging.evaluation import effective_parts, parts_document, recorded_parts
 from uictest.plans.scenario import load
 
 
@@ -18,7 +17,7 @@ def cases(tmp_path):
 
 
 def of(case):
-    return EffectiveParts().of(case.scenario)
+    return effective_parts(case.scenario)
 
 
 def changed(parts):
@@ -119,8 +118,7 @@ def test_every_number_of_every_part_is_there(cases):
 
 
 def test_the_id_is_that_of_the_content_and_a_shared_part_is_computed_once(cases):
-    effective = EffectiveParts()
-    first, second = (effective.of(case.scenario) for case in cases("matrix: {seed: [1, 2]}\n"))
+    first, second = (effective_parts(case.scenario) for case in cases("matrix: {seed: [1, 2]}\n"))
     assert all(first[role] is second[role] for role in first if first[role].name)
     assert first["scenario"].id != second["scenario"].id
     (one,), (same,) = cases("title: A\n"), cases("title: B\n")
@@ -132,7 +130,7 @@ def test_the_id_is_that_of_the_content_and_a_shared_part_is_computed_once(cases)
 
 def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases):
     (case,) = cases("rail: {condition: wet, friction: 0.10}\nrig: {wsp: bypassed}\n")
-    parts = EffectiveParts().of_recorded(case.scenario)
+    parts = recorded_parts(case.scenario)
     assert list(parts) == ["conditions", "measures", "criteria.0"]
     stated = {each.key: each.written for each in parts["conditions"].parameters}
     assert stated == {
@@ -148,7 +146,7 @@ def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases):
         "record.tolerances.demanded_pressure": "15 %",
         "record.tolerances.duration": "10",
     }
-    simulated = EffectiveParts().of(case.scenario).values()
+    simulated = effective_parts(case.scenario).values()
     assert not [each.key for part in simulated for each in part.parameters if "record" in each.key]
 
 

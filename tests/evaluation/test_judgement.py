@@ -1,10 +1,20 @@
+"""Criteria applied to a stop: which apply, what they say, and what their verdicts carry."""
+
 import math
 
+import jsonschema
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
+from pydantic import ValidationError
 
 from uictest.judging.evaluation import AppliedDefinition, judge, outcome_of
+from uictest.plans import scenario as scenarios
+from uictest.plans.scenario.parts.criteria import Criteria
+from uictest.plans.scenario.yaml.model import quantities_in
+
+from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
+from .conftest import criterion, profile, scenario, shipped, verdict_of, written
 
 G = 9.80665
 KMH = 1 / 3.6
@@ -13,7 +23,7 @@ positive = st.floats(0.0, 1e4)
 
 
 @pytest.fixture
-def appendix_b(shipped):
+def appendix_b():
     return shipped("uic-541-05-appendix-b")
 
 
@@ -21,9 +31,7 @@ def by_id(verdicts):
     return {verdict.id: verdict for verdict in verdicts}
 
 
-def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(
-    appendix_b, scenario, sliding_stop, wheelsets
-):
+def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(appendix_b):
     verdicts = by_id(
         judge(scenario(appendix_b, condition="wet"), sliding_stop(0.07 * G), wheelsets(0.2, 0.9, 0.3, 0.8))
     )
@@ -40,7 +48,7 @@ def test_a_slip_test_is_judged_by_adhesion_and_slide_but_not_by_distance(
     assert distance.reason == "rail is wet, the criterion is for dry"
 
 
-def test_a_dry_stop_is_judged_by_distance_alone(appendix_b, scenario, stop, wheelsets):
+def test_a_dry_stop_is_judged_by_distance_alone(appendix_b):
     verdicts = by_id(judge(scenario(appendix_b), stop(braking_distance=512.0), wheelsets(0.0, 0.0, 0.0, 0.0)))
     assert [v.status for v in verdicts.values()] == ["not_applicable", "not_applicable", "fail"]
     distance = verdicts["braking-distance"]
@@ -48,9 +56,7 @@ def test_a_dry_stop_is_judged_by_distance_alone(appendix_b, scenario, stop, whee
     assert distance.reason == "512 m misses 440 .. 490 m by 22 m"
 
 
-def test_exactly_at_a_limit_below_and_above_do_not_hold_but_a_range_does(
-    appendix_b, scenario, stop, sliding_stop, wheelsets
-):
+def test_exactly_at_a_limit_below_and_above_do_not_hold_but_a_range_does(appendix_b):
     wet = by_id(
         judge(scenario(appendix_b, condition="wet"), sliding_stop(share=0.35), wheelsets(0.9, 0.9, 0.9, 0.9))
     )
@@ -101,7 +107,7 @@ ANOTHER_TEST = [
 
 @pytest.mark.parametrize(("changes", "speed", "another_test", "reason"), ANOTHER_TEST)
 def test_a_stop_of_another_test_is_not_judged_valid_and_a_requirement_says_what_it_is_for(
-    appendix_b, scenario, stop, wheelsets, changes, speed, another_test, reason
+    appendix_b, changes, speed, another_test, reason
 ):
     measures = stop(initial_speed=speed * KMH)
     verdict = by_id(judge(scenario(appendix_b, **changes), measures, wheelsets(0.0)))["braking-distance"]
@@ -128,7 +134,7 @@ def _from(speed, name, criterion, **fields):
     ],
 )
 def test_of_two_criteria_of_validity_for_two_speeds_one_judges_its_own_and_none_another_speed(
-    criterion, profile, scenario, stop, wheelsets, speed, short, long, outcome
+    speed, short, long, outcome
 ):
     two = profile(_from(120, "short", criterion), _from(160, "long", criterion))
     verdicts = by_id(judge(scenario(two), stop(initial_speed=speed * KMH), wheelsets(0.0)))
@@ -138,9 +144,7 @@ def test_of_two_criteria_of_validity_for_two_speeds_one_judges_its_own_and_none_
         assert verdicts["long"].reason == "no stop from 160 km/h (it is 124 km/h, tolerance 3 km/h)"
 
 
-def test_a_measure_that_no_criterion_of_validity_bounds_is_not_judged_by_one_of_another_measure(
-    criterion, profile, scenario, stop, wheelsets
-):
+def test_a_measure_that_no_criterion_of_validity_bounds_is_not_judged_by_one_of_another_measure():
     others = [
         _from(160, "time", criterion, measure="braking_time", lower="1 s", upper="90 s"),
         _from(160, "asked", criterion, layer="requirement"),
@@ -158,7 +162,7 @@ def test_a_measure_that_no_criterion_of_validity_bounds_is_not_judged_by_one_of_
 
 
 def test_on_another_kind_of_rail_a_criterion_of_validity_does_not_apply_and_says_all_that_keeps_it(
-    appendix_b, scenario, stop, wheelsets
+    appendix_b,
 ):
     other = scenario(appendix_b, position="P", condition="wet")
     verdict = by_id(judge(other, stop(initial_speed=120 * KMH), wheelsets(0.0)))["braking-distance"]
@@ -170,9 +174,7 @@ def test_on_another_kind_of_rail_a_criterion_of_validity_does_not_apply_and_says
 
 
 @pytest.mark.parametrize(("speed", "distance"), [(117.0, 447.0), (120.0, 470.0), (123.0, 494.0)])
-def test_within_the_tolerance_the_distance_is_judged_as_from_120_km_h(
-    appendix_b, scenario, stop, wheelsets, speed, distance
-):
+def test_within_the_tolerance_the_distance_is_judged_as_from_120_km_h(appendix_b, speed, distance):
     measures = stop(initial_speed=speed * KMH, braking_distance=distance)
     verdict = by_id(judge(scenario(appendix_b), measures, wheelsets(0.0)))["braking-distance"]
     assert (verdict.status, verdict.value) == ("pass", pytest.approx(470.0, abs=0.4))
@@ -182,7 +184,7 @@ def test_within_the_tolerance_the_distance_is_judged_as_from_120_km_h(
 
 
 def test_a_criterion_without_a_speed_takes_that_of_the_scenario_or_of_another_criterion_that_is_for_it(
-    appendix_b, criterion, profile, scenario, stop, wheelsets
+    appendix_b,
 ):
     own = profile(criterion(upper="490 m"))
     measures = stop(initial_speed=117.0 * KMH, braking_distance=447.0)
@@ -197,23 +199,21 @@ def test_a_criterion_without_a_speed_takes_that_of_the_scenario_or_of_another_cr
 
 
 @pytest.mark.parametrize(("gradient", "deceleration"), [(0.03, 0.097), (0.0, 0.067), (-0.03, 0.037)])
-def test_uphill_the_weight_has_no_part_in_the_initial_adhesion(
-    appendix_b, scenario, sliding_stop, wheelsets, gradient, deceleration
-):
+def test_uphill_the_weight_has_no_part_in_the_initial_adhesion(appendix_b, gradient, deceleration):
     judged_under = scenario(appendix_b, condition="wet", gradient=gradient)
     stop = sliding_stop(deceleration=deceleration * 9.80665)
     verdict = by_id(judge(judged_under, stop, wheelsets(0.5, 0.5, 0.5, 0.5)))["initial-adhesion"]
     assert (verdict.status, verdict.value) == ("pass", pytest.approx(0.067))
 
 
-def test_a_wet_stop_without_sliding_says_so_and_is_no_slip_test(appendix_b, scenario, stop, wheelsets):
+def test_a_wet_stop_without_sliding_says_so_and_is_no_slip_test(appendix_b):
     verdicts = by_id(judge(scenario(appendix_b, condition="wet"), stop(), wheelsets(0.01, 0.01, 0.01, 0.01)))
     assert verdicts["initial-adhesion"].status == "not_applicable"
     assert "no wheelset slid" in verdicts["initial-adhesion"].reason
     assert verdicts["minimum-slide"].status == "fail"
 
 
-def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands(criterion, verdict_of, stop):
+def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands():
     bounded = criterion(lower="440 m", upper="490 m")
     running = {"stopped": 0.0, "braking_distance": np.nan, "end_speed": 12.0, "end_time": 60.0}
     far = verdict_of(bounded, stop(**running, end_distance=900.0))
@@ -225,9 +225,7 @@ def test_a_train_already_beyond_the_upper_bound_has_failed_before_it_stands(crit
 
 
 @pytest.mark.parametrize("measure", ["longest_lock", "locked_time", "sliding_duration"])
-def test_a_train_slower_than_the_speed_of_observation_does_not_show_that_no_wheelset_locked(
-    criterion, verdict_of, stop, measure
-):
+def test_a_train_slower_than_the_speed_of_observation_does_not_show_that_no_wheelset_locked(measure):
     short = criterion(measure, upper="1 s", wheelsets="all")
     slow = stop(initial_speed=9.0 / 3.6, maximum_deceleration=math.nan)
     gaining = stop(initial_speed=9.0 / 3.6)
@@ -249,24 +247,20 @@ def test_a_train_slower_than_the_speed_of_observation_does_not_show_that_no_whee
         ({"at_least": 3}, (0.4, 0.5, math.nan, 0.6), "pass", 40.0),
     ],
 )
-def test_the_wheelset_that_decides_gives_the_value(
-    criterion, verdict_of, stop, wheelsets, wheelsets_keep, slides, verdict, value
-):
+def test_the_wheelset_that_decides_gives_the_value(wheelsets_keep, slides, verdict, value):
     cutoff = {"low_speed_cutoff": {"value": "30 km/h", "range": ["30 km/h", "30 km/h"]}}
     slide = criterion("maximum_slide_above_cutoff", lower="35 %", wheelsets=wheelsets_keep, definition=cutoff)
     found = verdict_of(slide, stop(), wheelsets(*slides))
     assert (found.status, found.value) == (verdict, value)
 
 
-def test_a_record_of_fewer_wheelsets_than_needed_supports_no_verdict(criterion, verdict_of, stop, wheelsets):
+def test_a_record_of_fewer_wheelsets_than_needed_supports_no_verdict():
     locked = criterion("locked_time", upper="1 s", wheelsets={"at_least": 3})
     found = verdict_of(locked, stop(), wheelsets(0.1, 0.1))
     assert (found.status, found.reason) == ("inconclusive", "the record holds 2 wheelsets")
 
 
-def test_the_verdict_carries_what_it_was_taken_to_mean_as_text_and_as_data(
-    appendix_b, scenario, sliding_stop, wheelsets
-):
+def test_the_verdict_carries_what_it_was_taken_to_mean_as_text_and_as_data(appendix_b):
     verdicts = by_id(
         judge(scenario(appendix_b, condition="wet"), sliding_stop(), wheelsets(0.5, 0.5, 0.5, 0.5))
     )
@@ -296,7 +290,7 @@ def test_the_verdict_carries_what_it_was_taken_to_mean_as_text_and_as_data(
     "name", ["braking_distance", "initial_adhesion", "energy_residual", "reservoir_minimum_pressure"]
 )
 @pytest.mark.parametrize("nan", [math.nan, math.inf, -math.inf])
-def test_nan_never_passes(criterion, verdict_of, sliding_stop, wheelsets, name, nan):
+def test_nan_never_passes(name, nan):
     phase = {"first_phase_duration": {"value": "3 s", "range": ["2 s", "5 s"]}}
     bounds = {
         "braking_distance": {"upper": "490 m"},
@@ -312,9 +306,7 @@ def test_nan_never_passes(criterion, verdict_of, sliding_stop, wheelsets, name, 
 
 
 @given(st.tuples(positive, positive), positive)
-def test_a_longer_stop_never_turns_fail_into_pass_under_an_upper_bound(
-    criterion, verdict_of, stop, distances, bound
-):
+def test_a_longer_stop_never_turns_fail_into_pass_under_an_upper_bound(distances, bound):
     limited = criterion(upper=f"{bound:.6f} m")
     shorter, longer = (verdict_of(limited, stop(braking_distance=s)) for s in sorted(distances))
     assert (shorter.status, longer.status) != ("fail", "pass")
@@ -322,7 +314,143 @@ def test_a_longer_stop_never_turns_fail_into_pass_under_an_upper_bound(
 
 
 @given(positive, positive)
-def test_the_margin_has_the_sign_of_the_verdict(criterion, verdict_of, stop, distance, bound):
+def test_the_margin_has_the_sign_of_the_verdict(distance, bound):
     for side in ("lower", "upper"):
         found = verdict_of(criterion(**{side: f"{bound:.6f} m"}), stop(braking_distance=distance))
         assert (found.margin >= 0) == (found.status == "pass")
+
+
+CONDITIONS = scenarios.TestConditions("soap", "active", "R", 1.0, 0.0, "one-caliper")
+
+
+@pytest.mark.parametrize(
+    ("required", "unmet"),
+    [
+        ({"rail_condition": ("wet", "soap")}, []),
+        ({"rail_condition": ("wet",)}, ["rail is soap, the criterion is for wet"]),
+        ({"rail_condition_other_than": ("dry",)}, []),
+        ({"rail_condition_other_than": ("dry", "soap")}, ["rail is soap, the criterion is for any other"]),
+    ],
+)
+def test_a_criterion_names_the_rails_it_is_for_or_not_for(required, unmet):
+    applies = scenarios.Applicability(**required)
+    assert [str(each) for each in scenarios.unmet_conditions(applies, CONDITIONS, None)] == unmet
+
+
+SHIPPED = ("uic-541-05-appendix-b", "uictest-stop")
+
+
+def test_appendix_b_is_its_three_limits_and_nothing_else():
+    limits = {
+        c.id: (c.measure, c.lower and c.lower.text, c.upper and c.upper.text, c.layer)
+        for c in shipped("uic-541-05-appendix-b").criteria
+    }
+    assert limits == {
+        "initial-adhesion": ("initial_adhesion", None, "0.08 g", "validity"),
+        "minimum-slide": ("sliding_share", "35 %", None, "validity"),
+        "braking-distance": ("braking_distance", "440 m", "490 m", "validity"),
+    }
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_every_shipped_number_names_a_described_source(name):
+    profile = shipped(name)
+    found = list(quantities_in(profile))
+    assert found
+    assert all(quantity.source in profile.sources for _, quantity in found)
+
+
+def test_only_the_quoted_limits_are_marked_as_stated():
+    profile = shipped("uic-541-05-appendix-b")
+    stated = {q.text for _, q in quantities_in(profile) if profile.sources[q.source].mark == "stated"}
+    assert stated == {"0.08 g", "35 %", "440 m", "490 m", "120 km/h"}
+    assert all(source.mark == "chosen" for source in shipped("uictest-stop").sources.values())
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_profile_comes_back_from_its_own_form(name):
+    profile = shipped(name)
+    assert Criteria.model_validate(profile.model_dump(by_alias=True)) == profile
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_an_editor_that_knows_the_schema_accepts_what_is_shipped(name):
+    jsonschema.validate(written(name), Criteria.model_json_schema())
+
+
+PHASE = {"first_phase_duration": {"value": "3 s", "range": ["2 s", "5 s"]}}
+
+
+def cutoff(value="30 km/h", first="10 km/h", last="60 km/h"):
+    return {"low_speed_cutoff": {"value": value, "range": [first, last]}}
+
+
+SLIDE = {"measure": "maximum_slide_above_cutoff", "lower": "35 %", "wheelsets": "all"}
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"measure": "braking_distanc", "upper": "490 m"}, "unknown measure 'braking_distanc'"),
+        ({"measure": "braking_distance"}, "criterion 'tested' has no bound"),
+        ({"measure": "braking_distance", "upper": "490 s"}, "unknown unit 's' for a length"),
+        ({"measure": "braking_distance", "upper": 490}, "'490' has no unit"),
+        ({"measure": "braking_distance", "upper": ".nan m"}, "not a finite number"),
+        (
+            {"measure": "braking_distance", "lower": "5 m", "upper": "4 m"},
+            "lower bound 5 m is above the upper",
+        ),
+        ({"measure": "braking_distance", "upper": "5 m", "wheelsets": "all"}, "a measure of the whole stop"),
+        ({"measure": "locked_time", "upper": "1 s"}, "'wheelsets' must say how many"),
+        ({"measure": "locked_time", "upper": "1 s", "wheelsets": {"at_least": 5}}, "less than or equal to 4"),
+        (
+            {"measure": "initial_adhesion", "upper": "0.08 g"},
+            "needs the definition 'first_phase_duration', which is missing",
+        ),
+        (
+            {"measure": "braking_time", "upper": "9 s", "definition": PHASE},
+            "does not use the definition 'first_phase_duration'",
+        ),
+        ({**SLIDE, "definition": cutoff("35 km/h")}, "35 km/h is no multiple of 10 km/h"),
+        ({**SLIDE, "definition": cutoff(last="65 km/h")}, "65 km/h is no multiple of 10 km/h"),
+        ({**SLIDE, "definition": cutoff(last="300 km/h")}, "out of range"),
+        (
+            {**SLIDE, "definition": cutoff("70 km/h")},
+            "70 km/h is outside its own range of 10 km/h to 60 km/h",
+        ),
+        (
+            {**SLIDE, "definition": cutoff(first="60 km/h", last="10 km/h")},
+            "the range falls from 60 km/h to 10 km/h",
+        ),
+        ({"measure": "braking_time", "upper": "9 s", "id": "No Blanks"}, "should match pattern"),
+        ({"measure": "braking_time", "upper": "9 s", "layer": "maybe"}, "'validity' or 'requirement'"),
+        (
+            {"measure": "braking_time", "upper": {"value": "9 s", "source": "nowhere"}},
+            "unknown source 'nowhere'",
+        ),
+        ({"measure": "braking_time", "upper": "9 s", "source": "nowhere"}, "unknown source 'nowhere'"),
+    ],
+)
+def test_what_makes_no_criterion_is_refused(fields, message):
+    whole = {"id": "tested", "layer": "validity", **fields}
+    with pytest.raises(ValidationError, match=message.replace("(", r"\(")):
+        Criteria.model_validate({"name": "mine", "criteria": [whole]})
+
+
+def test_a_mistyped_measure_is_answered_with_the_nearest():
+    wrong = {"id": "a", "layer": "validity", "measure": "braking_distanc", "upper": "490 m"}
+    with pytest.raises(ValidationError) as caught:
+        Criteria.model_validate({"criteria": [wrong]})
+    (error,) = caught.value.errors()
+    assert error["ctx"]["hint"] == "did you mean 'braking_distance'?"
+    assert error["loc"] == ("criteria", 0, "measure")
+
+
+def test_a_profile_of_another_kind_without_criteria_or_with_two_of_a_name_is_refused():
+    one = {"id": "same", "layer": "validity", "measure": "standstill", "lower": 1}
+    with pytest.raises(ValidationError, match="a second criterion is called 'same'"):
+        Criteria.model_validate({"criteria": [one, one]})
+    with pytest.raises(ValidationError, match="uictest/criteria/1"):
+        Criteria.model_validate({"schema": "uictest/rail/1", "criteria": [one]})
+    with pytest.raises(ValidationError, match="the profile has no criterion"):
+        Criteria.model_validate({"criteria": []})

@@ -19,29 +19,25 @@ from uictest.judging.evaluation import (
 )
 from uictest.judging.evaluation.verdict import READINGS
 
-from ..measures.catalogue.conftest import slow_times
+from ..measures.catalogue.conftest import sliding_stop, slow_times, stop, wheelsets
+from .conftest import case, criterion, scenario, shipped, verdict_of
 
 KMH = 1 / 3.6
 NAMES = ["half-at-once", "each-wheelset", "depth"]
 
 
-@pytest.fixture
-def minimum_slide(shipped, scenario):
+def minimum_slide(*records, **options):
     """Judge a stop by the shipped minimum slide."""
-
-    def judged(*records, **options):
-        resolved = scenario(shipped("uic-541-05-appendix-b"), condition="wet")
-        verdicts = judge(resolved, *records, **options)
-        return next(verdict for verdict in verdicts if verdict.id == "minimum-slide")
-
-    return judged
+    resolved = scenario(shipped("uic-541-05-appendix-b"), condition="wet")
+    verdicts = judge(resolved, *records, **options)
+    return next(verdict for verdict in verdicts if verdict.id == "minimum-slide")
 
 
 def over_readings(verdict):
     return next(each for each in verdict.sensitivity if each.definition == READINGS)
 
 
-def test_three_readings_stand_side_by_side_and_the_first_decides(minimum_slide, sliding_stop, wheelsets):
+def test_three_readings_stand_side_by_side_and_the_first_decides():
     verdict = minimum_slide(sliding_stop(share=0.5), wheelsets(0.6, 0.6, 0.05, 0.05))
     assert [each.id for each in verdict.readings] == NAMES
     assert [each.decides for each in verdict.readings] == [True, False, False]
@@ -63,9 +59,7 @@ def test_three_readings_stand_side_by_side_and_the_first_decides(minimum_slide, 
         (0.1, (0.0, 0.0, 0.0, 0.6), "fail", ["fail", "fail", "fail"]),
     ],
 )
-def test_the_verdict_turns_exactly_where_the_readings_disagree(
-    minimum_slide, sliding_stop, wheelsets, share, slides, status, statuses
-):
+def test_the_verdict_turns_exactly_where_the_readings_disagree(share, slides, status, statuses):
     verdict = minimum_slide(sliding_stop(share=share), wheelsets(*slides))
     assert verdict.status == status
     assert [each.status for each in verdict.readings] == statuses
@@ -75,9 +69,7 @@ def test_the_verdict_turns_exactly_where_the_readings_disagree(
     assert str(over_readings(verdict)) == f"readings: {listed}"
 
 
-def test_a_reading_that_disagrees_leaves_no_margin_and_is_written_and_read_back(
-    shipped, scenario, case, sliding_stop, wheelsets
-):
+def test_a_reading_that_disagrees_leaves_no_margin_and_is_written_and_read_back():
     slip_test = case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
     result = evaluate(slip_test, sliding_stop(), wheelsets(0.2, 0.2, 0.2, 0.2))
     assert result.outcome == "pass"
@@ -98,7 +90,7 @@ def test_a_reading_that_disagrees_leaves_no_margin_and_is_written_and_read_back(
     assert read.criteria == result.criteria
 
 
-def test_every_reading_says_at_which_speeds_it_looks(minimum_slide, sliding_stop, wheelsets):
+def test_every_reading_says_at_which_speeds_it_looks():
     for share in (0.1, 0.5):
         verdict = minimum_slide(sliding_stop(share=share), wheelsets(0.6, 0.6, 0.05, 0.05))
         at_once, each_wheelset, depth = (each.reason for each in verdict.readings)
@@ -107,7 +99,7 @@ def test_every_reading_says_at_which_speeds_it_looks(minimum_slide, sliding_stop
         assert "above 30 km/h" in depth
 
 
-def test_definitions_of_every_reading_run_through_their_range(minimum_slide, sliding_stop, wheelsets):
+def test_definitions_of_every_reading_run_through_their_range():
     """Half at once slides below 90 and 95 % of the speed only."""
     table = slow_times(0.5)
     table[27] = 0.0
@@ -125,14 +117,14 @@ def test_definitions_of_every_reading_run_through_their_range(minimum_slide, sli
 
 
 @pytest.mark.parametrize("initial", [60.0, 45.0])
-def test_a_stop_from_sixty_or_below_is_not_applicable(criterion, verdict_of, stop, wheelsets, initial):
+def test_a_stop_from_sixty_or_below_is_not_applicable(initial):
     """Also where the observation ends early: nothing that follows would give it a share."""
     for running in ({}, {"stopped": 0.0, "end_speed": 5.0}):
         records = stop(initial_speed=initial * KMH, **running), wheelsets(0.5, 0.5, 0.5, 0.5)
         assert verdict_of(_share_of(criterion), *records).status == "not_applicable"
 
 
-def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(criterion, verdict_of, stop, wheelsets):
+def test_a_stop_that_never_came_down_to_sixty_is_inconclusive():
     """Whatever it showed until then; once it came down, the rest of the stop does not matter."""
     reached = stop().reached_time.copy()
     reached[:6] = math.nan
@@ -145,9 +137,7 @@ def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(criterion, verdict
     assert (verdict.status, verdict.value) == ("pass", 90.0)
 
 
-def test_a_recorded_stop_without_all_wheel_speeds_is_inconclusive_and_lists_its_readings(
-    minimum_slide, sliding_stop, wheelsets
-):
+def test_a_recorded_stop_without_all_wheel_speeds_is_inconclusive_and_lists_its_readings():
     gap = MissingData("not recorded: wheel_speed_3", bounded=False)
     lacking = dict.fromkeys(("sliding_share", "maximum_slide_above_cutoff"), (gap,) * 4)
     lacking["sliding_share"] = (gap,)
@@ -159,14 +149,14 @@ def test_a_recorded_stop_without_all_wheel_speeds_is_inconclusive_and_lists_its_
 
 
 @pytest.mark.parametrize("nan", [math.nan, math.inf])
-def test_no_reading_passes_on_what_is_no_number(minimum_slide, sliding_stop, wheelsets, nan):
+def test_no_reading_passes_on_what_is_no_number(nan):
     records = wheelsets(nan, nan, nan, nan, slow_time=nan)
     verdict = minimum_slide(sliding_stop(half_slow_time=nan), records)
     assert verdict.status != "pass"
     assert {each.status for each in verdict.readings}.isdisjoint({"pass"})
 
 
-def test_repeated_stops_are_read_together(shipped, scenario, case, sliding_stop, wheelsets):
+def test_repeated_stops_are_read_together():
     resolved = scenario(shipped("uic-541-05-appendix-b"), condition="wet")
     resolved.outcome_of_repeats = "all"
     together = case(resolved)

@@ -1,29 +1,120 @@
-"""The outcome of a case, and its narrowest margin on a scale that all criteria share."""
+"""A result, its verdicts and its document."""
 
+import math
 from dataclasses import replace
 from itertools import product
 
 import pytest
+from pydantic import ConfigDict, TypeAdapter
 
 from uictest.judging.evaluation import (
+    AppliedDefinition,
     CaseResult,
     Sensitivity,
     Verdict,
     VerdictInterval,
+    WrittenVerdict,
+    from_json_form,
     narrowest_margin,
     outcome_of,
     result_document,
     results_of,
+    to_json_form,
 )
 from uictest.judging.evaluation.verdict import relative_margin
 from uictest.plans.scenario import PASS
+
+# The interface's names; `sensitivity` says what definitions do to it, the last two as data what was judged.
+FIELDS = [
+    "id",
+    "layer",
+    "value",
+    "unit",
+    "lower",
+    "upper",
+    "margin",
+    "verdict",
+    "reason",
+    "definition",
+    "sensitivity",
+    "measure",
+    "definitions",
+]
+VERDICTS = TypeAdapter(list[WrittenVerdict], config=ConfigDict(extra="forbid"))
+SLIDE = Sensitivity(
+    "low_speed_cutoff",
+    "km/h",
+    10.0,
+    60.0,
+    (VerdictInterval(10.0, 40.0, "pass"), VerdictInterval(50.0, 60.0, "fail")),
+)
+STEADY = Sensitivity("first_phase_duration", "s", 2.0, 5.0, (VerdictInterval(2.0, 5.0, "pass"),))
+
+
+def verdict(**changes):
+    fields = {
+        "id": "minimum-slide",
+        "layer": "validity",
+        "value": 80.0,
+        "unit": "%",
+        "lower": 35.0,
+        "upper": None,
+    }
+    fields |= {"margin": 45.0, "status": "pass", "reason": "2 of 4", "definition": {"clause": "Appendix B"}}
+    cutoff = AppliedDefinition("low_speed_cutoff", 30 / 3.6, "m/s", "chosen", 10 / 3.6, 60 / 3.6)
+    fields |= {"measure": "maximum_slide", "definitions": (cutoff,)}
+    return Verdict(**{**fields, "sensitivity": (SLIDE, STEADY), **changes})
+
+
+def form_of(verdict):
+    return to_json_form(VERDICTS, [verdict])[0]
+
+
+def read_back(form):
+    return from_json_form(VERDICTS, [form])[0]
+
+
+def test_the_json_form_has_the_fields_of_the_interface_and_comes_back_also_in_its_first_version():
+    form = form_of(verdict())
+    assert list(form) == [*FIELDS, "requirements"]
+    assert read_back(form) == verdict()
+    del form["measure"], form["definitions"]
+    assert read_back(form) == verdict(measure="", definitions=())
+    form = form_of(verdict(value=math.inf, margin=math.nan))
+    assert (form["value"], form["margin"]) == (None, None)
+
+
+def test_a_verdict_knows_its_definitions_and_whether_it_flips_and_cannot_be_changed():
+    assert verdict().defined("low_speed_cutoff") == 30 / 3.6
+    assert verdict().defined("first_phase_duration") is None
+    assert [entry["flips"] for entry in form_of(verdict())["sensitivity"]] == [True, False]
+    assert not verdict().steady
+    assert verdict(sensitivity=(STEADY,)).steady
+    assert verdict(sensitivity=()).steady
+    with pytest.raises(AttributeError):
+        verdict().status = "fail"
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"verdict": "maybe"}, "verdict: Input should be 'pass', 'fail'"),
+        ({"value": "far"}, "value: Input should be a valid number"),
+        ({"status": "pass"}, "status: Unexpected keyword argument"),
+        ({"sensitivity": [{"definition": "low_speed_cutoff"}]}, "sensitivity.0.unit: Field required"),
+    ],
+)
+def test_a_verdict_of_another_form_is_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
+        read_back(form_of(verdict()) | changes)
+
 
 FLIPPING = Sensitivity(
     "cut-off", "km/h", 20.0, 40.0, (VerdictInterval(20, 30, "pass"), VerdictInterval(30, 40, "fail"))
 )
 
 
-def verdict(**changes):
+def written_verdict(**changes):
     content = {
         "id": "distance",
         "layer": "requirement",
@@ -44,21 +135,23 @@ def result(*criteria):
 
 
 def test_a_margin_counts_over_its_bound_and_a_passed_one_that_hangs_on_a_definition_has_none():
-    assert relative_margin(verdict()) == pytest.approx(0.1)
-    assert relative_margin(verdict(margin=-25.0, status="fail")) == pytest.approx(-0.05)
-    assert relative_margin(verdict(sensitivity=(FLIPPING,))) == 0.0
-    missed = verdict(margin=-25.0, status="fail", sensitivity=(FLIPPING,))
+    assert relative_margin(written_verdict()) == pytest.approx(0.1)
+    assert relative_margin(written_verdict(margin=-25.0, status="fail")) == pytest.approx(-0.05)
+    assert relative_margin(written_verdict(sensitivity=(FLIPPING,))) == 0.0
+    missed = written_verdict(margin=-25.0, status="fail", sensitivity=(FLIPPING,))
     assert relative_margin(missed) == pytest.approx(-0.05)
-    standstill = verdict(id="standstill", unit="1", value=1.0, lower=1.0, upper=None, margin=0.0)
+    standstill = written_verdict(id="standstill", unit="1", value=1.0, lower=1.0, upper=None, margin=0.0)
     assert relative_margin(standstill) is None
-    assert relative_margin(verdict(margin=None, status="not_applicable")) is None
-    missed = verdict(id="standstill", unit="1", value=0.0, lower=1.0, upper=None, margin=-1.0, status="fail")
+    assert relative_margin(written_verdict(margin=None, status="not_applicable")) is None
+    missed = written_verdict(
+        id="standstill", unit="1", value=0.0, lower=1.0, upper=None, margin=-1.0, status="fail"
+    )
     assert relative_margin(missed) == -1.0
 
 
 def test_the_narrowest_of_several_is_named():
-    close = verdict(id="slide", unit="%", value=34.0, upper=35.0, margin=1.0)
-    assert narrowest_margin(result(verdict(), close)) == (pytest.approx(1.0 / 35.0), "slide")
+    close = written_verdict(id="slide", unit="%", value=34.0, upper=35.0, margin=1.0)
+    assert narrowest_margin(result(written_verdict(), close)) == (pytest.approx(1.0 / 35.0), "slide")
     assert narrowest_margin(result()) == (None, "")
 
 

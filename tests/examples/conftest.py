@@ -2,7 +2,6 @@
 
 import dataclasses
 import hashlib
-import os
 import shutil
 import subprocess
 from contextlib import contextmanager
@@ -14,14 +13,15 @@ import uictest
 from uictest import rig
 from uictest.controllers import CONTROLLERS, DEFAULT
 from uictest.plans.scenario import load
-from uictest.plans.scenario.parts.external_controller import (
+from uictest.plans.scenario.parts.controller import (
     FmuController,
     LibraryController,
+    ProgramFile,
     SocketController,
 )
-from uictest.plans.scenario.program_files import ProgramFile
 from uictest.plans.scenario.yaml import Document
 
+from ..c_compiler import c_compiler
 from ..stop_bits import stop_bits
 
 ROOT = Path(__file__).parents[2]
@@ -32,10 +32,7 @@ HEADERS = Path(uictest.__file__).parent / "controllers"
 @pytest.fixture(scope="session")
 def compiler():
     """The C compiler: $CC, else gcc."""
-    path = shutil.which(os.environ.get("CC", "gcc"))
-    if path is None:
-        pytest.skip("no C compiler")
-    return path
+    return c_compiler()
 
 
 @pytest.fixture(scope="session")

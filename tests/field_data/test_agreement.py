@@ -115,10 +115,7 @@ MISTAKES = {
     "absolute as gauge": (lambda r: _changed(r, PRESSURES, lambda p: p + 101325.0), {"demanded-pressure"}),
     # mbar taken for kPa: zephyr pull request 116092
     "ten times the pressure": (lambda r: _changed(r, PRESSURES, lambda p: 10.0 * p), {"demanded-pressure"}),
-    "80 % for 100 %": (
-        lambda r: _changed(r, "demanded_pressure", lambda p: 0.8 * p),
-        {"demanded-pressure"},
-    ),
+    "80 % for 100 %": (lambda r: _changed(r, "demanded_pressure", lambda p: 0.8 * p), {"demanded-pressure"}),
 }
 
 

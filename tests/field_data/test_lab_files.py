@@ -9,11 +9,11 @@ import yaml
 from hypothesis import assume, given, strategies as st
 
 from uictest.core.recording.formats import Cells, Dialect, read_contents, read_pieces
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 from uictest.plans.scenario import ScenarioErrors
 from uictest.recorded.field_data import MapError, UnusableError, load_map, select_channels, stop_in
 from uictest.recorded.field_data.raw_channels import LONGEST_RECORD
-from uictest.recorded.service_log.channels import pieces_of
+from uictest.recorded.service_log.signals import pieces_of
 
 STEP = 0.02
 TIMES = STEP * np.arange(200)

@@ -9,13 +9,12 @@ from uictest.core.measures import MEASURES
 from uictest.core.measures.catalogue.deceleration import initial_adhesion
 from uictest.core.recording import TRACK_BRAKES_BESIDE
 from uictest.core.recording.formats import FORMATS, Dialect, writer_of
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 from uictest.judging.evaluation import evaluate
 from uictest.plans.scenario import load
 from uictest.recorded.field_data import (
     MapError,
     Preparation,
-    RawChannel,
     judge_recording,
     load_map,
     prepare,
@@ -25,7 +24,7 @@ from uictest.recorded.field_data import (
 from uictest.recorded.field_data.judgement import observe
 from uictest.rig import simulate
 
-from .conftest import judge_stop, kept
+from .conftest import channels_of, judge_stop, kept
 
 OURS = ("rail.condition=wet", "brake.position=R", "rig.wsp=active", "criteria=[uictest-stop]")
 
@@ -114,10 +113,7 @@ def test_the_sliding_share_of_a_record_is_that_of_the_simulated_stop(rate, case,
 def test_what_a_cleaned_rail_offered_is_known_from_a_record_that_has_the_share(rail):
     case = stated_case("stop", 60.0 / 3.6, ["rail.friction=0.07", f"rail.condition={rail}"])
     stop = simulate(case, record_every=0.01)
-    channels = {
-        name: RawChannel(name, name, stop.recording["time"], values)
-        for name, values in stop.recording.channels.items()
-    }
+    channels = channels_of(stop.recording)
     seen = observe(prepare(channels, stop.recording.metadata, Preparation()), case.scenario).measures
     assert 0.5 < stop.measures.adhesion_utilisation < 1.0
     assert seen.adhesion_utilisation == pytest.approx(stop.measures.adhesion_utilisation, abs=5e-3)
@@ -209,11 +205,7 @@ def test_a_recorded_track_brake_gives_its_energy_and_time_and_leaves_no_initial_
     case = stated_case("stop", 60.0 / 3.6, settings)
     simulated = simulate(case, record_every=0.01)
     recording = simulated.recording
-    channels = {
-        name: RawChannel(name, name, recording["time"], np.asarray(values))
-        for name, values in recording.channels.items()
-        if name != "time"
-    }
+    channels = channels_of(recording)
     observed = observe(prepare(channels, recording.metadata, Preparation()), case.scenario).measures
     assert observed.track_brake_energy == pytest.approx(simulated.measures.track_brake_energy, rel=1e-2)
     assert observed.track_brake_time == pytest.approx(simulated.measures.track_brake_time, abs=0.05)
@@ -226,11 +218,7 @@ def test_a_recording_of_a_car_says_that_track_brakes_of_others_acted(tmp_path):
     without, _ = load([tmp_path / "stop.yaml"])
     stop = simulate(without, record_every=0.01)
     recording = stop.recording
-    channels = {
-        name: RawChannel(name, name, recording["time"], np.asarray(values))
-        for name, values in recording.channels.items()
-        if name != "time"
-    }
+    channels = channels_of(recording)
     recorded = prepare(channels, recording.metadata, Preparation())
     case = replace(without, train=None)
     observed = observe(recorded, case.scenario)

@@ -8,10 +8,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 from uictest.recorded.field_data import MapError, load_map, prepare, select_channels
-from uictest.recorded.field_data.raw_channels import with_valve_commands
-from uictest.recorded.field_data.time_axis import at_own_rates
+from uictest.recorded.field_data.raw_channels import at_own_rates, with_valve_commands
 
 STEP, DISTANCE = 0.02, 246.91
 TIME = STEP * np.arange(1262)

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.recorded.field_data import MapError, Preparation, RawChannel
-from uictest.recorded.field_data.time_axis import coarse_defects, gap_defects, gaps, low_passed, resampled
+from uictest.recorded.field_data.defects import coarse_defects, gap_defects
+from uictest.recorded.field_data.raw_channels import gaps, low_passed, resampled
 from uictest.recorded.field_data.trigger import find_standstill, find_trigger, require_plausible_deceleration
 
 RISING = st.lists(st.floats(0.01, 1.0), min_size=2, max_size=30).map(np.cumsum)

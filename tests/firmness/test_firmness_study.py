@@ -8,7 +8,7 @@ from uictest.judging.evaluation import CalibratedDraws, CaseResult, Verdict
 from uictest.plans.scenario import PASS
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
 from uictest.plans.sweeps import RangedNumber
-from uictest.report.firmness_sentences import firmness_sentences
+from uictest.report.robustness import firmness_sentences
 
 SMALL = Effort(blocks=4, block=64, seeds=16, seeds_at_ends=4)
 
@@ -179,10 +179,7 @@ def test_every_draw_meets_a_random_rail_of_its_own():
 def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity(outcome_of_no_test):
     """Whatever such a stop comes to: its validity is asked, and not the outcome."""
     firmness = study(
-        [A, B],
-        lambda a, b: 1.0,
-        validity=lambda a, b: 3.0 - b,
-        outcome_of_no_test=outcome_of_no_test,
+        [A, B], lambda a, b: 1.0, validity=lambda a, b: 3.0 - b, outcome_of_no_test=outcome_of_no_test
     )
     outcome, counts, limit = firmness, *firmness.criteria
     # A fifth of the range lies above 3.

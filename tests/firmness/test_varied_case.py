@@ -1,5 +1,6 @@
 """A case with other values of its numbers: the bits of a scenario that states them, the noise of the case."""
 
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,13 +12,14 @@ from uictest.judging.evaluation import may_be_biased
 from uictest.plans.scenario import load
 from uictest.plans.scenario.yaml import parse_quantity
 from uictest.plans.sweeps import ParameterValue, listed_column, numbers_without_range, ranged_numbers
-from uictest.report.firmness_sentences import firmness_sentences
+from uictest.report.robustness import firmness_sentences
+from uictest.rig import run_in_lanes
 from uictest.running.campaign import run_cases
-from uictest.running.chunked import VariedCase
+from uictest.running.chunked import VariedCase, many_stops
 from uictest.running.chunked.table import biases_by_measure
 from uictest.runs import firmness
-from uictest.runs.errors import InvalidInputError
 from uictest.runs.firmness import FirmnessRun
+from uictest.runs.scenario_files import InvalidInputError
 
 VENT = "brake.system.wsp_valve.vent_conductance"
 RADIUS = "vehicle.wheelset.radius"
@@ -91,14 +93,18 @@ def test_a_drawn_value_gives_the_stop_of_a_scenario_that_states_its_text(numbers
     assert measures(varied) == measures(stated)
 
 
-def test_a_number_that_would_change_the_noise_meets_that_of_the_case(numbers):
-    varied = VariedCase(short_stop(), list(numbers))
-    assembler = varied._runner.assembler
-    settings = columns(numbers, 2, **{RADIUS: 0.0})
-    block = assembler.of_settings(np.arange(2), ["0", "1"], settings)
+def test_a_number_that_would_change_the_noise_meets_that_of_the_case(numbers, monkeypatch):
+    keys = []
+
+    def simulate(parameters, *others):
+        keys.extend(f"{key:08x}" for key in parameters["noise_key"])
+        return run_in_lanes(parameters, *others)
+
+    monkeypatch.setattr(many_stops, "ManyStops", partial(many_stops.ManyStops, simulate=simulate))
+    VariedCase(short_stop(), list(numbers)).results(columns(numbers, 2, **{RADIUS: 0.0}))
     [nominal] = run_cases([short_stop()]).results
     [other] = run_cases([short_stop(f"{RADIUS}=0.42 m")]).results
-    assert {f"{key:08x}" for key in block.parameters["noise_key"]} == {nominal.noise_key}
+    assert keys == [nominal.noise_key] * 2
     assert other.noise_key != nominal.noise_key
 
 

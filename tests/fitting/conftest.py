@@ -1,7 +1,6 @@
 """Simulated stops as a train would record them: with the noise and the errors of sensors."""
 
 import numpy as np
-import pytest
 
 from uictest.core.recording import TIME
 from uictest.recorded.field_data import Preparation, RawChannel, prepare, stated_case
@@ -27,23 +26,18 @@ def _with_sensor_noise(recording, dice):
     return {name: RawChannel(name, name, time, np.asarray(values)) for name, values in samples.items()}
 
 
-@pytest.fixture(scope="session")
-def recorded_stop():
+def recorded_stop(speed, friction, seed=0, without=(), every=0.01, **facts):
     """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed.
 
     A sample `every` so many seconds.
     """
-
-    def make(speed, friction, seed=0, without=(), every=0.01, **facts):
-        wsp = facts.get("wsp", "active")
-        case = stated_case(
-            "stop",
-            speed / 3.6,
-            ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}", *facts.get("settings", ())],
-        )
-        recording = simulate(case, record_every=every).recording
-        channels = _with_sensor_noise(recording, np.random.default_rng(seed))
-        kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
-        return case, prepare(kept, recording.metadata, Preparation())
-
-    return make
+    wsp = facts.get("wsp", "active")
+    case = stated_case(
+        "stop",
+        speed / 3.6,
+        ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}", *facts.get("settings", ())],
+    )
+    recording = simulate(case, record_every=every).recording
+    channels = _with_sensor_noise(recording, np.random.default_rng(seed))
+    kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
+    return case, prepare(kept, recording.metadata, Preparation())

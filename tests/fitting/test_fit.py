@@ -1,19 +1,21 @@
+"""Friction of the rail and of the pads under a recorded stop, and the samples for it."""
+
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.polach import contact_stiffness, creep_force
-from uictest.core.recording import Recording
+from uictest.core.physics.rail import contact_stiffness, creep_force
+from uictest.core.recording import TIME, Recording
 from uictest.plans.scenario import load_part
-from uictest.recorded.field_data import stated_case
+from uictest.recorded.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
 from uictest.recorded.fitting import FitError, fit_stop
-from uictest.recorded.fitting.balances import Balances, wheelset_creep, windows_of
-from uictest.recorded.fitting.least_squares import in_a_row
-from uictest.recorded.fitting.samples import samples_of, wheel_loads
-from uictest.recorded.fitting.stretches import stretch_names, stretch_of
+from uictest.recorded.fitting.balances import Balances, samples_of, wheel_loads, wheelset_creep, windows_of
+from uictest.recorded.fitting.fit import in_a_row, stretch_names, stretch_of
 from uictest.rig import simulate
+
+from .conftest import recorded_stop
 
 CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]
 STEPS = [(80.0, 0.10, 0.06), (80.0, 0.06, 0.09), (100.0, 0.09, 0.06), (100.0, 0.06, 0.10)]
@@ -27,7 +29,7 @@ def _text(*levels, place=100.0):
 
 
 @pytest.mark.parametrize(("speed", "friction"), CONSTANT)
-def test_constant_friction_within_3_percent(recorded_stop, speed, friction):
+def test_constant_friction_within_3_percent(speed, friction):
     case, stop = recorded_stop(speed, str(friction), seed=int(1000 * friction))
     fit = fit_stop(stop, case.scenario)
     assert fit.determined
@@ -36,13 +38,13 @@ def test_constant_friction_within_3_percent(recorded_stop, speed, friction):
 
 
 @pytest.mark.parametrize(("speed", "before", "after"), STEPS)
-def test_two_steps_within_5_percent(recorded_stop, speed, before, after):
+def test_two_steps_within_5_percent(speed, before, after):
     case, stop = recorded_stop(speed, _text(before, after), seed=7)
     fit = fit_stop(stop, case.scenario, [100.0])
     assert [estimate.value for estimate in fit.friction] == pytest.approx([before, after], rel=0.05)
 
 
-def test_without_sliding_or_beyond_the_stop_there_is_no_value(recorded_stop):
+def test_without_sliding_or_beyond_the_stop_there_is_no_value():
     case, stop = recorded_stop(60.0, "0.5")
     [estimate] = fit_stop(stop, case.scenario).friction
     assert estimate.standing == "at least"
@@ -57,7 +59,7 @@ def test_without_sliding_or_beyond_the_stop_there_is_no_value(recorded_stop):
         fit_stop(stop, case.scenario)
 
 
-def test_a_stop_of_a_few_samples_is_too_short(recorded_stop):
+def test_a_stop_of_a_few_samples_is_too_short():
     case, stop = recorded_stop(10.3, "0.07", settings=("measures.moving_speed=10 km/h",))
     with pytest.raises(FitError, match="the stop is too short for a fit"):
         fit_stop(stop, case.scenario)
@@ -77,7 +79,7 @@ CURVES = "friction_ratio: 0.74, friction_decay: 0.18 s/m, reduction_adhesion: 0.
     ],
     ids=["one curve", "whole curves", "a worn layer", "loss of one contact"],
 )
-def test_stated_cleaning_is_not_counted_twice(recorded_stop, more):
+def test_stated_cleaning_is_not_counted_twice(more):
     """The friction is that of the rail as found."""
     case, recorded = recorded_stop(80.0, "0.07", 1, settings=(f"rail.cleaning={{{LAW}, {more}}}",))
     plain = stated_case("plain", 80.0 / 3.6, ["rail.condition=wet"]).scenario
@@ -85,7 +87,7 @@ def test_stated_cleaning_is_not_counted_twice(recorded_stop, more):
     assert fit_stop(recorded, plain).friction[0].value > 0.09
 
 
-def test_what_wheelsets_have_of_their_own_is_accounted_for(recorded_stop):
+def test_what_wheelsets_have_of_their_own_is_accounted_for():
     """A weak brake, a small wheel, other pads: the balances of that wheelset hold with its own numbers."""
     small = "wheel_radius: 0.41 m, configured_radius: 0.41 m"
     own = f"{{1: {{brake_force: 80 %}}, 2: {{{small}}}, 4: {{pad_friction: 0.45}}}}"
@@ -98,13 +100,13 @@ def test_what_wheelsets_have_of_their_own_is_accounted_for(recorded_stop):
     assert fit.friction[0].half_width < 0.2 * other.friction[0].half_width
 
 
-def test_one_factor_does_not_stand_for_pads_of_single_wheelsets(recorded_stop):
+def test_one_factor_does_not_stand_for_pads_of_single_wheelsets():
     case, stop = recorded_stop(80.0, "0.07", settings=["vehicle.wheelsets.2.pad_friction=0.36"])
     with pytest.raises(FitError, match="single wheelsets"):
         fit_stop(stop, case.scenario, with_pads=True)
 
 
-def test_pad_friction_beside_friction(recorded_stop):
+def test_pad_friction_beside_friction():
     case, stop = recorded_stop(80.0, "0.08")
     pads = case.scenario.brake.system.disc.pad_friction
     system = case.scenario.brake.system
@@ -115,14 +117,14 @@ def test_pad_friction_beside_friction(recorded_stop):
     assert fit.friction[0].value == pytest.approx(0.08, rel=0.03)
 
 
-def test_without_forces_the_train_alone_tells_where_all_wheelsets_slide(recorded_stop):
+def test_without_forces_the_train_alone_tells_where_all_wheelsets_slide():
     case, stop = recorded_stop(80.0, "0.06", without=("clamping_force",))
     assert fit_stop(stop, case.scenario).friction[0].value == pytest.approx(0.06, rel=0.05)
     with pytest.raises(FitError, match="clamping forces"):
         fit_stop(stop, case.scenario, with_pads=True)
 
 
-def test_forces_do_not_say_the_torque_of_pads_that_vary(recorded_stop):
+def test_forces_do_not_say_the_torque_of_pads_that_vary():
     """The recorded torque does, and whether pads are weaker than the scenario's cannot be asked."""
     case, stop = recorded_stop(80.0, "0.08")
     varying = case.scenario.brake.model_copy(update={"pad": load_part("pads/disc-pad")})
@@ -166,7 +168,7 @@ def test_stretches():
 
 
 @pytest.mark.parametrize("delay", [-0.03, 0.02, 0.04])
-def test_wheel_speeds_that_are_recorded_late_do_not_change_the_friction(recorded_stop, delay):
+def test_wheel_speeds_that_are_recorded_late_do_not_change_the_friction(delay):
     case, stop = recorded_stop(80.0, "0.08", seed=5)
     channels = dict(stop.recording.channels)
     for n in (1, 2, 3, 4):
@@ -178,7 +180,7 @@ def test_wheel_speeds_that_are_recorded_late_do_not_change_the_friction(recorded
     assert after.friction[0].value == pytest.approx(0.08, rel=0.005)
 
 
-def test_recorded_wheel_loads_take_the_place_of_those_of_the_vehicle(recorded_stop):
+def test_recorded_wheel_loads_take_the_place_of_those_of_the_vehicle():
     """The same forces on half the weight are twice the friction."""
     case, stop = recorded_stop(80.0, "0.08")
     samples = samples_of(stop, case.scenario)
@@ -200,7 +202,7 @@ def test_loads_of_the_vehicle_are_those_of_the_simulated_train():
         assert recording[f"wheel_load_{n + 1}"][steady].mean() == pytest.approx(expected[n], rel=0.002)
 
 
-def test_the_train_alone_says_nothing_where_a_wheelset_rolls(recorded_stop):
+def test_the_train_alone_says_nothing_where_a_wheelset_rolls():
     case, stop = recorded_stop(80.0, "0.07", without=("clamping_force",))
     rolling = {"wheel_speed_4": np.array(stop.recording["speed"])}
     recording = Recording({**stop.recording.channels, **rolling}, stop.recording.units)
@@ -225,7 +227,7 @@ def test_noise_at_the_ends_of_windows_hardly_stays_in_a_mean():
     assert variance < 0.3 * np.var(noise) / row
 
 
-def test_the_noise_of_a_record_and_what_it_leaves_are_those_of_its_sensor(recorded_stop):
+def test_the_noise_of_a_record_and_what_it_leaves_are_those_of_its_sensor():
     """At the friction of the rail nothing but the noise is left: conftest's 0.05 m/s on the train speed."""
     shares = []
     for seed in (1, 2, 3, 4):
@@ -237,3 +239,33 @@ def test_the_noise_of_a_record_and_what_it_leaves_are_those_of_its_sensor(record
         row, variance = in_a_row(of_train)
         shares.append(balances.noise_variance(row) / variance)
     assert np.mean(shares) == pytest.approx(1.0, abs=0.3)
+
+
+def test_forces_say_the_torque_of_pads_that_do_not_vary():
+    """By calipers, pads, radius and friction, each wheelset with its own: the rig records both."""
+    own = "{1: {brake_force: 80 %}, 4: {pad_friction: 0.45}}"
+    settings = ["rail.condition=wet", "rail.friction=0.07", f"vehicle.wheelsets={own}"]
+    case = stated_case("stop", 80.0 / 3.6, settings)
+    recording = simulate(case, record_every=0.01).recording
+    time = np.asarray(recording[TIME])
+    names = [f"{kind}_{n}" for n in WHEELSETS for kind in ("wheel_speed", "clamping_force", "brake_torque")]
+    channels = {
+        name: RawChannel(name, name, time, np.array(recording[name], dtype=float))
+        for name in ("speed", *names)
+    }
+    torques = []
+    for without in ("brake_torque", "clamping_force"):
+        kept = {name: each for name, each in channels.items() if not name.startswith(without)}
+        samples = samples_of(prepare(kept, recording.metadata, Preparation()), case.scenario)
+        assert samples.torque is not None
+        torques.append(np.where(samples.standing, 0.0, samples.torque))
+    by_forces, recorded = torques
+    assert recorded.max() > 1e3
+    rolling = np.abs(by_forces - recorded) < 1e-3 * recorded.max()
+    assert rolling.mean() > 0.98
+
+
+def test_a_stop_that_a_track_brake_slowed_as_well_is_no_stop_for_a_fit():
+    case, stop = recorded_stop(60, 0.06, settings=["brake.track={attraction: 100 kN, when: always}"])
+    with pytest.raises(FitError, match="a track brake slowed the train"):
+        samples_of(stop, case.scenario)

@@ -4,9 +4,8 @@ import pytest
 
 from uictest.plans.scenario import load
 from uictest.recorded.field_data import stated_case
-from uictest.recorded.fitting.fit import Fit
+from uictest.recorded.fitting.fit import Estimate, Fit
 from uictest.recorded.fitting.outputs import fitted_yaml, friction_of
-from uictest.recorded.fitting.stretches import Estimate
 
 NAN = float("nan")
 HEAD = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 80 km/h\n"

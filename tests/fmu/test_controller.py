@@ -1,7 +1,9 @@
 """A controller as an FMU gives the commands that it gives in process, and takes what it is given."""
 
+import re
 import shutil
 import subprocess
+import sys
 import zipfile
 from functools import cache
 from pathlib import Path
@@ -327,3 +329,16 @@ def test_a_library_that_cannot_be_exported_says_why(tmp_path, source, reason):
     (tmp_path / "wsp.so").write_bytes(library_of(tmp_path / "wsp.c"))
     with pytest.raises((ControllerError, fmu.NotExportableError), match=reason):
         fmu.build_controller_fmu(load_controller(str(tmp_path / "wsp.so")), 2)
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "rig.md"
+
+
+def test_the_loop_of_the_page_stops_the_train(build, tmp_path):
+    program = re.search(r"# close_loop.py\n.*?(?=^```$)", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    assert program is not None
+    (tmp_path / "rig.fmu").write_bytes(build(2).read_bytes())
+    done = subprocess.run(
+        [sys.executable, "-c", program[0]], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert float(done.stdout.removesuffix(" m\n")) > 50.0

@@ -6,7 +6,7 @@ from hypothesis import given, strategies as st
 from uictest import report
 from uictest.judging import evaluation
 from uictest.plans.scenario import PASS
-from uictest.runs.history.entry import ENTRY, RunEntry, entry_of, read_entry
+from uictest.runs.history.listing import ENTRY, RunEntry, entry_of, read_entry
 
 from .conftest import case
 

@@ -79,30 +79,32 @@ def test_what_somebody_may_need_stays_as_it_is_and_the_reason_is_given(two, repo
     assert sorted(old.rglob("*")) == before
 
 
-def test_what_the_command_line_names_stays(publish, reports):
-    baseline, other, newest = publish(), publish(), publish()
-    named = [baseline / "results.json", Path("elsewhere")]
-    found = fates(reports, 1, newest, *named)
-    assert found == {other.name: "", baseline.name: "the command line refers to it"}
-
-
-def test_what_a_run_that_stays_for_a_reason_refers_to_stays_too(publish, reports):
-    source = publish()
+def test_what_the_command_line_or_a_run_that_stays_for_a_reason_refers_to_stays_too(publish, reports):
+    source, baseline, other = publish(), publish(), publish()
     middle = publish(inputs={f"reports/{source.name}/results.json": "00"})
     newest = publish()
     _write(middle, "review.md")
-    found = fates(reports, 1, newest)
-    assert found[source.name] == f"{middle.name} refers to it"
+    assert fates(reports, 1, newest, baseline / "results.json", Path("elsewhere")) == {
+        middle.name: NOT_OURS.format("review.md"),
+        other.name: "",
+        baseline.name: "the command line refers to it",
+        source.name: f"{middle.name} refers to it",
+    }
 
 
-def test_a_folder_with_a_name_of_the_user_stays(two, reports):
+def test_a_folder_with_a_name_of_the_user_stays_and_so_does_an_incomplete_run(two, publish, reports):
     """A baseline has nothing but files that uictest wrote."""
-    old, newest = two
+    old, other = two
     for name in ("index.html", "index-entry.json", "junit.xml"):
         (old / name).unlink(missing_ok=True)
-    baseline = old.rename(reports / "baseline")
-    assert fates(reports, 1, newest) == {"baseline": "somebody gave it this name, as to a baseline"}
-    assert (baseline / "results.json").is_file()
+    old.rename(reports / "baseline")
+    incomplete, newest = publish(complete=False), publish()
+    assert fates(reports, 1, newest) == {
+        incomplete.name: "it is incomplete",
+        other.name: "",
+        "baseline": "somebody gave it this name, as to a baseline",
+    }
+    assert (reports / "baseline" / "results.json").is_file()
 
 
 @pytest.mark.parametrize("working_folder", [".", "/"])
@@ -144,11 +146,6 @@ def test_a_link_that_leads_to_itself_and_a_damaged_path_refer_to_nothing(publish
     (reports / "latest").unlink()
     (reports / "latest").symlink_to("latest")
     assert fates(reports, 1, newest) == {old.name: ""}
-
-
-def test_an_incomplete_run_stays(publish, reports):
-    old, newest = publish(complete=False), publish()
-    assert fates(reports, 1, newest) == {old.name: "it is incomplete"}
 
 
 def test_a_folder_in_use_stays_as_it_is(two, reports):
@@ -218,7 +215,7 @@ def test_a_removal_cut_short_is_completed_by_the_next_run(publish, two, reports,
 
 
 def test_every_file_of_a_run_is_listed(publish, reports):
-    old = publish(case("a"), formats=tuple(report.format_names()))
+    old = publish(case("a"), formats=tuple(report.FORMATS))
     files.write(old, "recordings/slip-120[friction=0.09].parquet", b"")
     assert fates(reports, 1, publish()) == {old.name: ""}
 

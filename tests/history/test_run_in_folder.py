@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from uictest.runs.history import ENTRY, ListedRun, Unlisted, read_folder
-from uictest.runs.history.run_in_folder import started_in
+from uictest.runs.history.listing import started_in
 
 from .conftest import case
 
@@ -25,7 +25,7 @@ def sweep(folder, **changes):
     manifest |= {"file": "sweeps/study.sweep.yaml", "cases": 3, "inputs": {"../stop.yaml": "00"}}
     (folder / "manifest.json").write_text(json.dumps(manifest))
     document = SWEEP | {"outcomes": {"pass": 2, "fail": 1}} | changes
-    (folder / "sweep.json").write_text(json.dumps(document))
+    (folder / "results.json").write_text(json.dumps(document))
     return folder
 
 
@@ -76,14 +76,14 @@ def test_a_sweep_is_read_with_its_counts_if_it_is_finished_and_no_earlier_one(tm
     assert (run.kind, run.counts, run.not_met) == ("sweep", {"pass": 2, "fail": 1}, 1)
     assert (run.subject, run.controllers) == ("study", "slip-band (built into uictest 1), x")
     assert run.inputs == {"sweeps/../stop.yaml": "00"}
-    (folder / "sweep.json").unlink()
+    (folder / "results.json").unlink()
     assert "not finished" in reason_of(read_folder(folder))
     assert "earlier run" in reason_of(read_folder(sweep(tmp_path / "other", cases=4)))
 
 
 @pytest.mark.parametrize("changes", [{"outcomes": 3}, {"met": "all"}, {"schema": "x"}, {"cases": True}])
 def test_a_damaged_sweep_is_said_to_be_damaged(tmp_path, changes):
-    assert "sweep.json is damaged" in reason_of(read_folder(sweep(tmp_path / "study", **changes)))
+    assert "results.json is damaged" in reason_of(read_folder(sweep(tmp_path / "study", **changes)))
 
 
 @pytest.mark.parametrize(
@@ -110,6 +110,10 @@ def _replace(file, make):
     make(file)
 
 
+def _grow(file):
+    file.write_bytes(file.read_bytes() + b" ")
+
+
 _make_a_pipe = partial(_replace, make=os.mkfifo)
 _make_a_folder = partial(_replace, make=Path.mkdir)
 _let_it_lead_nowhere = partial(_replace, make=lambda file: file.symlink_to("gone"))
@@ -120,6 +124,7 @@ _let_it_lead_nowhere = partial(_replace, make=lambda file: file.symlink_to("gone
     [
         ("results.json", Path.unlink, "there is no results.json"),
         ("results.json", "{", "results.json is not what the run wrote: 1 bytes, expected"),
+        ("results.json", _grow, "results.json is not what the run wrote"),
         ("manifest.json", _make_a_pipe, "manifest.json is no file"),
         ("manifest.json", _make_a_folder, "manifest.json is no file"),
         ("manifest.json", _let_it_lead_nowhere, "manifest.json is no file"),
@@ -127,11 +132,7 @@ _let_it_lead_nowhere = partial(_replace, make=lambda file: file.symlink_to("gone
         ("manifest.json", "[]", "manifest.json is damaged: expected an object"),
         ("manifest.json", OTHERS_MANIFEST, "not of uictest: manifest.json has no schema"),
         ("manifest.json", DAMAGED_MANIFEST, "manifest.json is damaged"),
-        (
-            "manifest.json",
-            OLD_MANIFEST,
-            "not read: manifest.json has schema 'uictest/manifest/1', written",
-        ),
+        ("manifest.json", OLD_MANIFEST, "not read: manifest.json has schema 'uictest/manifest/1', written"),
         (ENTRY, "{}", "index-entry.json is damaged"),
         ("manifest.json", lambda file: os.truncate(file, 1 << 40), "manifest.json of 1048576 MB is not read"),
     ],

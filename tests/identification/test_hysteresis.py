@@ -2,10 +2,18 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, strategies as st
 
 from uictest.rig.identification import UnsuitableRecordError, identify_hysteresis
+from uictest.rig.identification.lines import (
+    on_lines,
+    robust_line,
+    runs,
+    wsp_acting_from_commands,
+    wsp_acting_in_intervals,
+)
 
-from .conftest import LINES
+from .conftest import LINES, STEP
 
 PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")
 
@@ -83,3 +91,74 @@ def test_a_record_that_cannot_support_the_fit_is_refused_with_the_reason(pressur
     time, pressure, force = spoil(*pressures[:2], force)
     with pytest.raises(UnsuitableRecordError, match=reason):
         identify_hysteresis(time, pressure, force, np.zeros(len(time), bool))
+
+
+PRESSURE = np.linspace(1e5, 4e5, 400)
+
+
+@given(st.floats(1e-3, 0.2), st.floats(-5e3, 5e3))
+def test_a_line_without_noise_is_found_exactly(slope, intercept):
+    line = robust_line(PRESSURE, slope * PRESSURE + intercept)
+    assert line.slope == pytest.approx(slope, rel=1e-6)
+    assert line.intercept == pytest.approx(intercept, abs=1e-6 * slope * 4e5 + 1e-6)
+
+
+def test_points_on_one_side_move_it_less_than_least_squares():
+    rng = np.random.default_rng(1)
+    force = 0.045 * PRESSURE - 1700.0 + 20.0 * rng.standard_normal(len(PRESSURE))
+    force[:60] += 1500.0
+    line = robust_line(PRESSURE, force)
+    assert abs(line.slope - 0.045) < 0.2 * abs(np.polyfit(PRESSURE, force, 1)[0] - 0.045)
+
+
+def test_the_confidence_covers_the_truth_about_nineteen_times_in_twenty():
+    covered = 0
+    for seed in range(60):
+        noise = 50.0 * np.random.default_rng(seed).standard_normal(len(PRESSURE))
+        line = robust_line(PRESSURE, 0.045 * PRESSURE - 1700.0 + noise)
+        covered += abs(line.slope - 0.045) <= line.slope_confidence
+    assert 48 <= covered <= 60
+
+
+def test_too_few_points_are_no_line():
+    with pytest.raises(ValueError, match="3 points"):
+        robust_line(PRESSURE[:3], PRESSURE[:3])
+
+
+def test_runs_end_at_the_extremes():
+    pressure = np.array([0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 4.0])
+    assert runs(pressure, 0.5) == [(0, 3, 1), (3, 5, -1), (5, 8, 1)]
+
+
+def test_a_ripple_smaller_than_the_threshold_does_not_turn_the_pressure():
+    pressure = np.array([0.0, 1.0, 0.8, 2.0, 1.9, 3.0])
+    assert runs(pressure, 0.5) == [(0, 5, 1)]
+
+
+def test_a_constant_pressure_has_no_run():
+    assert runs(np.ones(5), 0.1) == []
+
+
+def test_every_point_that_counts_lies_on_its_line(pressures, force):
+    _, pressure, acting = pressures
+    squeezing, releasing = on_lines(pressure, force, STEP)
+    assert np.count_nonzero(squeezing) > 1000
+    assert np.count_nonzero(releasing) > 1000
+    for mask, name in ((squeezing, "squeezing"), (releasing, "releasing")):
+        for kind, phase in (("bc", ~acting), ("wsp", acting)):
+            points = mask & phase
+            line = LINES[f"{kind}_{name}"].force(pressure[points])
+            far = np.abs(force[points] - line) > 0.002 * force.max()
+            assert np.mean(far) < 0.02
+
+
+def test_the_wsp_acts_for_a_while_after_its_last_command():
+    time = np.arange(7.0)
+    commands = np.array([0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0])
+    acting = wsp_acting_from_commands(time, commands, 2.0)
+    assert acting.tolist() == [False, False, True, True, True, False, False]
+
+
+def test_the_wsp_acts_in_given_intervals():
+    acting = wsp_acting_in_intervals(np.arange(6.0), [(1.0, 2.0), (4.0, 9.0)])
+    assert acting.tolist() == [False, True, True, False, True, True]

@@ -3,7 +3,7 @@
 from uictest.core.physics import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import floor, fma, maximum, minimum, select, sqrt
 from uictest.core.physics.sensors import bell, threefry
-from uictest.rig.kernel.lanes import copy_from_lane, copy_to_lane, lane, vectors
+from uictest.rig.kernel.arguments import copy_from_lane, copy_to_lane, lane, vectors
 
 CRITICAL, SCALE, SLOPE = orifice_law(0.35, 0.995)
 

@@ -101,15 +101,10 @@ def record_stops(folder, cases):
 def record_lanes(folder, cases):
     """Run the stops of cars alone side by side, and those of trains."""
     from uictest import rig
-    from uictest.rig.backends.lanes import run_in_lanes
+    from uictest.rig.lanes import run_in_lanes
 
     inputs = [rig.assemble(case) for case in cases if case.train is None]
-    points = max(each.rail.shape[1] for each in inputs)
-    batch = run_in_lanes(
-        np.array([each.parameters for each in inputs]),
-        np.array([each.wheelset_parameters for each in inputs]),
-        np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
-    )
+    batch = run_in_lanes(*rig.stacked(inputs))
     stops = [stop for train in rig.simulate_trains(trains()) for stop in train]
     of_trains = [each.tobytes() for stop in stops for each in (stop.measures, stop.wheelset_measures)]
     return b"".join([*(each.tobytes() for each in batch), *of_trains])
@@ -126,7 +121,9 @@ def trains():
 def main():
     kind, folder = sys.argv[1], Path(sys.argv[2])
     folder.mkdir()
-    early = [name for name in sys.modules if name.startswith("uictest.rig.backends.")]
+    early = {f"uictest.rig.{name}" for name in ("lanes", "queue", "stepped", "stops")}.intersection(
+        sys.modules
+    )
     assert not early, "the rig would call functions that were made before"
     library.native_function = Recorder(folder).native_function
     from uictest.plans import scenario

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uictest.rig.kernel.lanes import block
+from uictest.rig.kernel.arguments import block
 from uictest.rig.kernel.library import register_width
 
 LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8")]))

@@ -3,7 +3,7 @@
 import pytest
 
 from kernel import build
-from uictest.rig.kernel import built
+from uictest.rig.kernel import library
 
 C = ("-x", "c", "-O1")
 
@@ -26,7 +26,7 @@ def test_a_file_is_compiled_again_when_it_or_a_header_below_its_folder_has_chang
 def test_what_changes_while_it_is_compiled_becomes_no_library(tmp_path, monkeypatch):
     """Else the digest of the new sources would name code of the old."""
     (tmp_path / "build.py").touch()
-    monkeypatch.setattr(built, "BUILDER", tmp_path)
+    monkeypatch.setattr(library, "BUILDER", tmp_path)
     with pytest.raises(build.BuildError, match="were changed while they were compiled; build again"):
         build.put_library(build.TARGETS[build.host()], [], tmp_path / "package", "rig")
     assert not (tmp_path / "package").exists()

@@ -11,8 +11,7 @@ from kernel import alone, contents
 from kernel.records import lane_struct, struct as struct_of
 from uictest.core.physics import mass_flow, orifice_law
 from uictest.core.physics.sensors import bell, threefry
-from uictest.rig.kernel.arguments import Length, at, passed
-from uictest.rig.kernel.lanes import block, block_layout
+from uictest.rig.kernel.arguments import Length, at, block, block_layout, passed
 from uictest.rig.kernel.library import WIDTHS, Entry, processors
 
 from . import lane_operations

@@ -14,7 +14,7 @@ import pytest
 
 import uictest
 from uictest.rig import STEP
-from uictest.rig.kernel import built, library
+from uictest.rig.kernel import library
 from uictest.rig.kernel.arguments import at
 from uictest.rig.kernel.library import WIDTHS, Entry, processor, processors
 
@@ -110,7 +110,7 @@ def test_without_a_library_an_installation_says_to_install_anew(installed):
     assert (done.returncode, done.stderr) == (3, f"uictest: {told}\n")
 
 
-@pytest.mark.parametrize("name", ["core/physics/disc_brake.py", "rig/model/state.py", "plans/faults.py"])
+@pytest.mark.parametrize("name", ["core/physics/brakes.py", "rig/model/state.py", "plans/faults.py"])
 def test_an_installation_whose_sources_were_changed_runs_no_old_code(installed, name):
     with (installed.package / name).open("a", encoding="utf-8") as file:
         file.write("# changed\n")
@@ -153,14 +153,14 @@ def test_threads_that_need_it_at_once_build_it_once(tmp_path, monkeypatch):
         shutil.copy(whole, tmp_path)
         return self.fitting()
 
-    monkeypatch.setattr(built.Built, "_built", build)
+    monkeypatch.setattr(library.Built, "_built", build)
     with ThreadPoolExecutor(2) as threads:
         paths = set(threads.map(lambda _: rig.path(), range(2)))
     assert (paths, len(builds)) == ({tmp_path / whole.name}, 1)
 
 
 def test_a_checkout_without_the_compiler_says_how_to_build(checkout):
-    checkout.change("core/physics/disc_brake.py", TORQUE, f"{TORQUE} * 1.1")
+    checkout.change("core/physics/brakes.py", TORQUE, f"{TORQUE} * 1.1")
     told = refusal(checkout, f"import sys; sys.modules['ziglang'] = None\n{WHICH}")
     assert told.endswith(f"was built from; build it: pip install --editable '{checkout.root}[build]'")
 
@@ -175,14 +175,14 @@ def test_a_changed_program_of_the_builder_is_no_damaged_library(checkout):
 
 
 def test_a_checkout_names_the_formula_that_cannot_be_compiled(checkout):
-    checkout.change("core/physics/disc_brake.py", TORQUE, f"{TORQUE} ** 2")
+    checkout.change("core/physics/brakes.py", TORQUE, f"{TORQUE} ** 2")
     told = refusal(checkout)
-    text = (checkout.package / "core/physics/disc_brake.py").read_text("utf-8")
+    text = (checkout.package / "core/physics/brakes.py").read_text("utf-8")
     line = text[: text.index(TORQUE)].count("\n") + 1
     assert told.startswith("the kernel cannot be built:\n")
-    assert f"disc_brake.py:{line}: `mean_radius ** 2` cannot be compiled; write products" in told
-    checkout.change("core/physics/disc_brake.py", f"{TORQUE} ** 2", f"{TORQUE} + nothing")
-    assert f"disc_brake.py:{line}: `nothing` cannot be compiled" in refusal(checkout)
+    assert f"brakes.py:{line}: `mean_radius ** 2` cannot be compiled; write products" in told
+    checkout.change("core/physics/brakes.py", f"{TORQUE} ** 2", f"{TORQUE} + nothing")
+    assert f"brakes.py:{line}: `nothing` cannot be compiled" in refusal(checkout)
 
 
 def test_what_was_changed_while_it_was_built_does_not_pass_for_either(checkout):
@@ -190,9 +190,9 @@ def test_what_was_changed_while_it_was_built_does_not_pass_for_either(checkout):
     before = sorted(checkout.library.parent.glob("rig-*"))
     built = """
 from kernel import build
-from uictest.rig.kernel import built
+from uictest.rig.kernel import library
 def compiled(target, folder):
-    with open(next(built.sources()), "a") as file:
+    with open(next(library.sources()), "a") as file:
         file.write("# changed")
     return []
 build.compile_kernel = compiled
@@ -207,7 +207,7 @@ build.build_package()
 def test_a_checkout_builds_the_changed_formula_in_every_process_that_needs_it(checkout):
     """Two that begin at once both run the new one, and the next finds it there."""
     before = checkout.run(STOP).stdout.split()
-    checkout.change("core/physics/disc_brake.py", TORQUE, f"{TORQUE} * 1.1")
+    checkout.change("core/physics/brakes.py", TORQUE, f"{TORQUE} * 1.1")
     search = {"PYTHONPATH": str(checkout.root / "src")}
     both = [
         subprocess.Popen(

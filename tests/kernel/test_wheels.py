@@ -67,7 +67,7 @@ def test_a_wheel_has_the_library_of_its_system_only(wheel):
 
 def test_the_name_of_the_library_has_the_digest_of_the_sources_beside_it(wheel):
     _, _, unpacked = wheel
-    code = "from uictest.rig.kernel import built, library; print(library.FOLDER, built.source_digest())"
+    code = "from uictest.rig.kernel import library; print(library.FOLDER, library.source_digest())"
     command = [sys.executable, "-c", code]
     environment = os.environ | {"PYTHONPATH": str(unpacked)}
     folder, digest = subprocess.check_output(command, cwd=unpacked, env=environment, text=True).split()

@@ -51,7 +51,12 @@ OPTIONAL = {
 NOT_OF_A_SENSOR = "brake-force-returns"
 
 
-def judged(tmp_path, part, kind, controller="threshold"):
+def result_of(write, text):
+    [case] = load([write("stop.yaml", f"schema: uictest/scenario/1\nname: stop\n{text}")])
+    return campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("none")).case_run.result
+
+
+def judged(write, part, kind, controller="threshold"):
     """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
     own = "" if part in ("brake-line", "controller", "train-speed", *OPTIONAL) else ", wheelset: 2"
     brake = f"brake: {OPTIONAL[part]}\n" if part in OPTIONAL else ""
@@ -59,20 +64,18 @@ def judged(tmp_path, part, kind, controller="threshold"):
     value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
     sensors = "{speed: {method: whole-teeth}, extends: standard}" if kind == "missing-teeth" else "standard"
     sensors = "{train_speed: {}, extends: standard}" if part == "train-speed" else sensors
-    path = tmp_path / "stop.yaml"
-    path.write_text(
-        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
+    return result_of(
+        write,
+        "initial_speed: 80 km/h\n"
         f"rail: {{condition: wet, friction: 0.09}}\nrig: {{sensors: {sensors}}}\ncontroller: {controller}\n"
         f"{brake}criteria: [uictest-wsp-faults, uictest-stop]\n"
-        f"faults: [{{at: 3 s, part: {part}, kind: {kind}{own}{value}}}]\n"
+        f"faults: [{{at: 3 s, part: {part}, kind: {kind}{own}{value}}}]\n",
     )
-    [case] = load([path])
-    return campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("none")).case_run.result
 
 
 @pytest.mark.parametrize(("part", "kind"), FAULT_KINDS, ids="-".join)
-def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(tmp_path, part, kind):
-    result = judged(tmp_path, part, kind)
+def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(write, part, kind):
+    result = judged(write, part, kind)
     statuses = {each.id: each.status for each in result.criteria}
     assert {name for name, status in statuses.items() if status == "fail"} == MISSED.get((part, kind), set())
     applies = statuses[NOT_OF_A_SENSOR] != "not_applicable"
@@ -88,22 +91,16 @@ def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(tmp_path, p
         ("[{at: 100 s, wheelset: 2, part: speed-sensor, kind: lost}]", "inconclusive", "inconclusive"),
     ],
 )
-def test_a_stop_in_which_no_fault_begins_shows_no_reaction(tmp_path, faults, status, outcome):
-    path = tmp_path / "stop.yaml"
-    path.write_text(
-        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\ncriteria: uictest-wsp-faults\n"
-        f"faults: {faults}\n"
-    )
-    [case] = load([path])
-    result = campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("none")).case_run.result
+def test_a_stop_in_which_no_fault_begins_shows_no_reaction(write, faults, status, outcome):
+    result = result_of(write, f"initial_speed: 20 km/h\ncriteria: uictest-wsp-faults\nfaults: {faults}\n")
     judged = [each.status for each in result.criteria if each.layer != "rig"]
     assert judged == ["pass", status, status, status]
     assert result.outcome == outcome
 
 
-def test_the_simplest_controller_misses_them(tmp_path):
-    lost = judged(tmp_path, "speed-sensor", "lost", "slip-band")
-    stuck = judged(tmp_path, "speed-sensor", "stuck", "slip-band")
+def test_the_simplest_controller_misses_them(write):
+    lost = judged(write, "speed-sensor", "lost", "slip-band")
+    stuck = judged(write, "speed-sensor", "stuck", "slip-band")
     failed = [{each.id for each in result.criteria if each.status == "fail"} for result in (lost, stuck)]
     assert "sound-wheelsets-turn" in failed[0]
     assert "reference-not-captured" in failed[1]

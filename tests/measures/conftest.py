@@ -15,11 +15,9 @@ from uictest.core.measures import (
     begin_train,
     begin_wheelset,
     begin_window,
-    keep_slide,
-    keep_window,
-    observe_train,
-    observe_wheelset,
 )
+from uictest.core.measures.train import keep_window, observe_train
+from uictest.core.measures.wheelset import keep_slide, observe_wheelset
 from uictest.core.record import fields_of
 
 Column = NDArray[np.float64]
@@ -83,7 +81,7 @@ def _measured(samples):
     # Plain numbers, a record's of numpy take three times as long.
     train, *wheelsets = map(_blank, (STOP_MEASURES, *[WHEELSET_MEASURES] * 4))
     first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])
-    begin_train(train, *map(float, first))
+    begin_train(train, *map(float, first), 3.8e5, 0.0)
     begin_window(train)
     for i in range(4):
         begin_wheelset(wheelsets[i])

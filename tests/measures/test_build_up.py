@@ -6,20 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.measures import (
-    STOP_COLUMNS,
-    begin_build_up,
-    begin_train,
-    note_standstill,
-    observe_build_up,
-    observe_train,
-)
+from uictest.core.measures import MEASURES, STOP_COLUMNS, begin_train, note_standstill
 from uictest.core.measures.catalogue.stopping import (
-    build_up_time,
     deceleration_distance,
     developed_deceleration,
     mean_deceleration,
 )
+from uictest.core.measures.train import observe_build_up, observe_train
 
 COMMANDED = 3.8e5
 DEFINITION = SimpleNamespace(
@@ -55,8 +48,7 @@ def observed(stop, interval, begin=0.0):
     times = np.arange(begin, stop.standstill, interval)
     rows = np.stack([times, stop.distance(times), stop.speed(times), stop.pressure(times)], axis=1).tolist()
     train = SimpleNamespace()
-    begin_train(train, *rows[0][:3], 7e5)
-    begin_build_up(train, COMMANDED, rows[0][3])
+    begin_train(train, *rows[0][:3], 7e5, COMMANDED, rows[0][3])
     for time, distance, speed, pressure in rows[1:]:
         observe_build_up(train, DEFINITION, time, distance, speed, pressure)
         observe_train(train, DEFINITION, time, distance, speed, 7e5)
@@ -129,8 +121,8 @@ def test_build_up_does_not_depend_on_when_the_samples_fall(interval):
 
 def test_shares_of_the_pressure_are_parameters():
     other = SimpleNamespace(**vars(DEFINITION) | {"rising_share": 0.01, "developed_share": 0.5})
-    train = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
-    begin_build_up(train, COMMANDED, 0.0)
+    train = SimpleNamespace()
+    begin_train(train, 0.0, 0.0, 20.0, 7e5, COMMANDED, 0.0)
     observe_build_up(train, other, 4.0, 80.0, 20.0, COMMANDED)
     assert train.build_up_time == pytest.approx(4.0 * (0.01 + 0.5) / 2)
 
@@ -149,13 +141,15 @@ def test_pressure_that_comes_at_once_or_was_there_or_falls_again():
 
 
 def test_brake_that_never_builds_up_or_whose_pressure_is_not_known_has_neither_time_nor_distance():
-    train = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
-    begin_build_up(train, COMMANDED, 0.0)
+    train = SimpleNamespace()
+    begin_train(train, 0.0, 0.0, 20.0, 7e5, COMMANDED, 0.0)
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, 0.94 * COMMANDED)
-    assert "never reached `developed_share`" in build_up_time(train).unavailable_reason
+    assert (
+        "never reached `developed_share`" in MEASURES["build_up_time"].read(train, (), {}).unavailable_reason
+    )
     assert "never reached `developed_share`" in deceleration_distance(train).unavailable_reason
     assert "never reached `developed_share`" in developed_deceleration(train).unavailable_reason
-    train = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
-    begin_build_up(train, COMMANDED, float("nan"))
+    train = SimpleNamespace()
+    begin_train(train, 0.0, 0.0, 20.0, 7e5, COMMANDED, float("nan"))
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, float("nan"))
     assert np.isnan([train.rise_time, train.build_up_time]).all()

@@ -6,17 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from uictest.core.measures import (
-    begin_contact,
-    begin_slides,
-    begin_train,
-    begin_utilisation,
-    begin_wheelset,
-    close_contacts,
-    observe_contact,
-    observe_train,
-    observe_wheelset,
-)
+from uictest.core.measures import begin_slides, begin_train, begin_wheelset, close_contacts
+from uictest.core.measures.train import observe_train
+from uictest.core.measures.wheelset import observe_contact, observe_wheelset
 
 Column = np.ndarray
 DEFINITION = SimpleNamespace(
@@ -63,12 +55,10 @@ class Stop:
     def observed(self):
         train = SimpleNamespace(speed_after_sliding=[np.nan] * 11)
         wheelsets = [SimpleNamespace(maximum_slide_above=[0.0] * 21) for _ in range(4)]
-        begin_train(train, 0.0, 0.0, 20.0, 7e5)
-        begin_utilisation(train)
+        begin_train(train, 0.0, 0.0, 20.0, 7e5, 3.8e5, 0.0)
         for wheelset in wheelsets:
             begin_wheelset(wheelset)
             begin_slides(wheelset)
-            begin_contact(wheelset)
         work, loss = self.sums(self.force * self.speed), self.sums(self.force * self.slide * self.speed)
         columns = (self.time, self.distance, self.speed, self.speed * (1 - self.slide), self.pressure)
         for row in np.stack([*columns, work, loss], axis=1)[1:].tolist():

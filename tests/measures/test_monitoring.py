@@ -9,8 +9,7 @@ import pytest
 from uictest.core.measures import MeasureDefinition, Replay, reports_wheelset, samples_of
 from uictest.core.record import fields_of
 from uictest.judging.evaluation import judge
-from uictest.plans.fault_effects import Effects, Report
-from uictest.plans.faults import FAULT_KINDS
+from uictest.plans.faults import FAULT_KINDS, Effects, Report
 from uictest.plans.scenario import load
 from uictest.recorded.field_data import Preparation, RawChannel, prepare
 from uictest.recorded.field_data.judgement import judge_recording

@@ -19,13 +19,11 @@ from uictest.core.measures import (
     wheelset_column_values,
     without_wheelset,
 )
-from uictest.core.measures.registry import measures_in
+from uictest.core.measures.catalogue import measures_in
 from uictest.core.record import fields_of
 from uictest.core.units import KINDS
 
 from .catalogue.conftest import sliding_stop, stop, wheelsets
-
-__all__ = ["sliding_stop", "stop", "wheelsets"]
 
 DEFINED = {
     "first_phase_duration": 3.0,
@@ -67,7 +65,7 @@ def add(package, module, name, column):
     Path(package.__path__[0], f"{module}.py").write_text(NEW.format(name=name, column=column))
 
 
-def test_a_new_module_is_found_without_a_further_edit(package, stop):
+def test_a_new_module_is_found_without_a_further_edit(package):
     add(package, "speeds", "speed_at_command", "speed_at_command_kmh")
     (measure,) = measures_in(package).values()
     assert measure.name == "speed_at_command"
@@ -89,14 +87,14 @@ def test_two_measures_of_one_name_or_column_are_rejected(package, name, column, 
 
 
 @pytest.mark.parametrize("name", MEASURES)
-def test_each_measure_gives_one_value_for_the_stop_or_one_per_wheelset(name, sliding_stop, wheelsets):
+def test_each_measure_gives_one_value_for_the_stop_or_one_per_wheelset(name):
     value = MEASURES[name].read(sliding_stop(), wheelsets(0.1, 0.2, 0.3, 0.4), DEFINED)
     assert not value.unavailable_reason
     assert len(value.values) == (4 if MEASURES[name].of_wheelsets else 1)
 
 
 @pytest.mark.parametrize("name", MEASURES)
-def test_each_measure_fits_its_declaration(name, stop, wheelsets):
+def test_each_measure_fits_its_declaration(name):
     measure = MEASURES[name]
     assert measure.name == name
     assert measure.kind in KINDS
@@ -112,7 +110,7 @@ def test_what_decides_an_observation_is_a_definition_of_the_measures():
     assert deciding == fields_of(MeasureDefinition).keys()
 
 
-def test_residuals_count_by_magnitude_air_as_normal_volume_and_actuations_in_whole_numbers(stop, wheelsets):
+def test_residuals_count_by_magnitude_air_as_normal_volume_and_actuations_in_whole_numbers():
     residual = MEASURES["energy_residual"].read(stop(energy_residual=-0.5), wheelsets(0.1), {})
     assert residual.values == (0.5,)
     assert stop_column_values(stop(energy_residual=-0.5), DEFINED)["energy_residual"] == -0.5
@@ -123,7 +121,7 @@ def test_residuals_count_by_magnitude_air_as_normal_volume_and_actuations_in_who
     assert np.isnan(wheelset_column_values(unknown)["valve_actuations"])
 
 
-def test_what_did_not_come_about_has_no_value(stop, wheelsets):
+def test_what_did_not_come_about_has_no_value():
     value = MEASURES["minimum_deceleration"].read(stop(minimum_deceleration=np.nan), wheelsets(0.1), {})
     assert value.unavailable_reason == "the brake was never fully developed while the train ran"
     running = stop(stopped=0.0, braking_distance=np.nan, braking_time=np.nan, end_distance=2500.0)

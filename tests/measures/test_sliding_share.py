@@ -6,15 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from uictest.core.measures import (
-    END_SPEEDS,
-    MEASURES,
-    SLOW_TIMES,
-    STOP_MEASURES,
-    WHEELSET_MEASURES,
-    begin_slow_times,
-    keep_slow_times,
-)
+from uictest.core.measures import MEASURES, STOP_MEASURES, WHEELSET_MEASURES, begin_slow_times
+from uictest.core.measures.records import END_SPEEDS, SLOW_TIMES
+from uictest.core.measures.wheelset import keep_slow_times
 
 KMH = 1.0 / 3.6
 DEFINITION = {"sliding_below": 0.9, "end_speed": 60.0 * KMH}

@@ -9,23 +9,19 @@ from scipy.signal import lfilter
 from uictest.core.measures import (
     STOP_MEASURES,
     WHEELSET_MEASURES,
-    WINDOW_SECONDS,
-    begin_build_up,
     begin_slow_times,
     begin_train,
-    begin_utilisation,
     begin_window,
     note_standstill,
-    observe_reservoir_margin,
 )
+from uictest.core.measures.records import WINDOW_SECONDS
+from uictest.core.measures.train import observe_reservoir_margin
 
 
 def begun(held_before):
     train = np.full(STOP_MEASURES.itemsize // 8, held_before).view(STOP_MEASURES)
-    begin_train(train[0], 0.5, 1.0, 30.0, 7e5)
+    begin_train(train[0], 0.5, 1.0, 30.0, 7e5, 3.8e5, 0.0)
     begin_window(train[0])
-    begin_build_up(train[0], 3.8e5, 0.0)
-    begin_utilisation(train[0])
     begin_slow_times(train[0], np.zeros(4, WHEELSET_MEASURES).view(np.recarray))
     return train.view(np.float64)
 
@@ -88,7 +84,7 @@ def test_extremes_last_sample_and_count_of_a_train_that_never_stopped(samples, s
 
 def test_margin_of_the_reservoir_is_its_smallest_over_the_cylinders():
     train = np.zeros(1, STOP_MEASURES)[0]
-    begin_train(train, 0.0, 0.0, 30.0, 8e5)
+    begin_train(train, 0.0, 0.0, 30.0, 8e5, 3.8e5, 0.0)
     for reservoir, cylinder in ((8e5, 0.0), (7.2e5, 3.8e5), (np.nan, 3.8e5), (7.0e5, 1.0e5)):
         observe_reservoir_margin(train, reservoir, cylinder)
     assert train.reservoir_margin == pytest.approx(3.4e5)

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 from uictest.core.measures import (
-    SPEED_CLASSES,
     STOP_MEASURES,
     WHEELSET_MEASURES,
-    begin_contact,
     begin_slides,
     begin_slow_times,
     begin_wheelset,
 )
+from uictest.core.measures.records import SPEED_CLASSES
 
 INTERVAL = 0.01
 
@@ -32,7 +31,6 @@ def begun(held_before):
     wheelset = np.full(WHEELSET_MEASURES.itemsize // 8, held_before).view(WHEELSET_MEASURES)
     begin_wheelset(wheelset[0])
     begin_slides(wheelset[0])
-    begin_contact(wheelset[0])
     begin_slow_times(np.zeros(1, STOP_MEASURES)[0], [wheelset[0]] * 4)
     return wheelset.view(np.float64)
 

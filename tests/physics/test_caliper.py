@@ -2,13 +2,25 @@
 
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
+import control
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 from scipy.optimize import brentq
+from scipy.signal import lfilter
 
-from uictest.core.physics.caliper import clamping_force, stiffnesses, stroke_after
+from uictest.core.physics.caliper import (
+    clamping_force,
+    force_after,
+    line,
+    memory,
+    output,
+    phase_share,
+    stiffnesses,
+    stroke_after,
+)
 
 STEP = 5e-4
 
@@ -224,3 +236,94 @@ def test_quick_loops_are_wider_than_slow_ones(damped):
 
 def test_lever_multiplies_the_contact_force():
     assert clamping_force(3.9e-3, 2.9e-3, 8e6, 2.45) == pytest.approx(2.45 * 8e3)
+
+
+SQUEEZING = (0.042, -1874.0)
+RELEASING = (0.047, -1580.0)
+pressure = st.floats(0.0, 5e5)
+histories = st.lists(pressure, min_size=1, max_size=30)
+
+
+def played(history, force=0.0):
+    for p in history:
+        force = force_after(force, line(p, *SQUEEZING), line(p, *RELEASING))
+    return force
+
+
+@given(histories)
+def test_force_lies_between_the_lines(history):
+    assert line(history[-1], *SQUEEZING) <= played(history) <= line(history[-1], *RELEASING)
+
+
+@given(pressure)
+def test_force_is_never_negative(p):
+    assert line(p, *SQUEEZING) >= 0.0
+
+
+@given(st.lists(pressure, min_size=2, max_size=15), st.integers(1, 7))
+def test_force_depends_on_the_path_and_not_on_its_pace(history, parts):
+    """Rate independence: the same turning points, reached in more steps, leave the same force."""
+    slow = history[:1]
+    for a, b in pairwise(history):
+        slow += [a + (b - a) * k / parts for k in range(1, parts)] + [b]
+    assert played(slow) == played(history)
+
+
+@given(st.lists(pressure, max_size=10), pressure, pressure)
+def test_inner_loop_returns_to_where_it_began(history, turn, inner):
+    """Return-point memory: a closed excursion, repeated, closes on itself."""
+    once = played([*history, turn, inner, turn])
+    assert played([turn, inner, turn] * 3, once) == played([turn, inner, turn], once)
+
+
+@given(histories, st.floats(-100.0, 100.0))
+def test_force_stays_where_it_is_while_the_pressure_turns(history, turn):
+    force = played(history)
+    p = max(history[-1] + turn, 0.0)
+    if line(p, *SQUEEZING) < force < line(p, *RELEASING):
+        assert played([p], force) == force
+
+
+def test_rising_pressure_follows_the_squeezing_line_falling_the_releasing_one_and_crossed_ones_give_one():
+    assert played([0.0, 3e5]) == line(3e5, *SQUEEZING)
+    assert played([0.0, 4e5, 3e5]) == line(3e5, *RELEASING)
+    # Below their crossing identified lines are in the wrong order; the squeezing line then holds alone.
+    assert force_after(0.0, squeezing=50.0, releasing=40.0) == 50.0
+    assert force_after(90.0, squeezing=50.0, releasing=40.0) == 50.0
+
+
+@given(st.floats(0.0, 1.0), st.sampled_from([0.0, 1.0]), st.floats(1e-4, 1.0))
+def test_phase_changes_no_faster_than_allowed_and_arrives(share, acting, step):
+    after = phase_share(share, acting, step)
+    assert abs(after - share) <= step * (1.0 + 1e-12)
+    assert abs(after - acting) <= max(abs(share - acting) - step, 0.0) + 1e-12
+
+
+POLES = np.exp(-5e-4 / np.array([30e-3, 8e-3, 3e-3]))
+DENOMINATOR = np.poly(POLES)
+NUMERATOR = DENOMINATOR.sum() * np.array([0.4, 0.3, 0.2, 0.1])
+
+
+def filtered(inputs):
+    memories = [0.0, 0.0, 0.0, 0.0]
+    outputs = []
+    for u in inputs.tolist():
+        y = output(u, memories[0], NUMERATOR[0])
+        for i in range(3):
+            memories[i] = memory(u, y, NUMERATOR[i + 1], DENOMINATOR[i + 1], memories[i + 1])
+        outputs.append(y)
+    return np.array(outputs)
+
+
+def test_random_and_constant_inputs_are_filtered_as_scipy_does():
+    inputs = np.random.default_rng(1).normal(2e5, 1e5, 4000)
+    ours = filtered(inputs)
+    np.testing.assert_allclose(ours, lfilter(NUMERATOR, DENOMINATOR, inputs), rtol=1e-12, atol=1e-6)
+    assert filtered(np.full(4000, 3.8e5))[-1] == pytest.approx(3.8e5, rel=1e-12)
+
+
+def test_step_response_is_that_of_the_transfer_function_in_control():
+    system = control.tf(NUMERATOR, DENOMINATOR, 5e-4)
+    response = control.step_response(system, T=5e-4 * np.arange(400))
+    np.testing.assert_allclose(filtered(np.ones(400)), np.squeeze(response.outputs), rtol=1e-9, atol=1e-12)
+    assert np.all(np.abs(system.poles()) < 1.0)

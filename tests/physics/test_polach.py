@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.polach import contact_stiffness, creep_force, friction_limit
+from uictest.core.physics.rail import contact_stiffness, creep_force, friction_limit
 
 # mu0, A, B, kA, kS of Polach (2005).
 DRY = (0.55, 0.40, 0.60, 1.00, 0.40)

@@ -1,4 +1,4 @@
-"""Geometry, forces and energies of the planar vehicle."""
+"""Geometry, forces, energies and resistance of the planar vehicle."""
 
 import math
 
@@ -6,8 +6,10 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.physics.vehicle import (
+    gradient_force,
     kinetic_energy,
     longitudinal,
+    running_resistance,
     spring_energy,
     suspension_force,
     vertical,
@@ -33,3 +35,17 @@ def test_springs_dampers_and_a_car_have_the_forces_and_energies_of_their_laws():
     assert suspension_force(0.0, 2e4, 0.3, 0.5) == 1e4
     # 45 t at 33.3 m/s: 25 MJ.
     assert kinetic_energy(45e3, 120 / 3.6) == pytest.approx(25e6)
+
+
+@given(st.floats(-80.0, 80.0))
+def test_resistance_is_daviss_and_always_against_the_motion(v):
+    force = running_resistance(v, 530.0, 7.0, 0.9)
+    if v == 0.0:
+        assert force == 0.0
+    else:
+        assert force * v > 0.0
+        assert abs(force) == pytest.approx(530.0 + 7.0 * abs(v) + 0.9 * v * v, rel=1e-12)
+
+
+def test_a_tonne_on_ten_per_mille_pulls_98_newton_back():
+    assert gradient_force(1000.0, 0.010, 9.80665) == pytest.approx(98.0665)

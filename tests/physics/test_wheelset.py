@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
-from uictest.core.physics.polach import creep_force
+from uictest.core.physics.rail import creep_force
 from uictest.core.physics.vehicle import (
     SLOWEST_CREEP,
     locked_force,

@@ -1,5 +1,6 @@
 """Chromium, headless, driven by selenium: what the tests of pages ask of it."""
 
+import csv
 import json
 import os
 import shutil
@@ -31,6 +32,9 @@ const panels = plots?.querySelector('.panels-plot').plots ?? [];
 return panels.reduce((sum, {lines, bars}) => sum + lines.length + bars.length, 0);
 """
 """How many lines the plots of the open stop have, once they are drawn and answer, near the window."""
+
+READY = "return document.querySelector('.plots[data-ready]') !== null"
+"""Whether the plots of a stop, or of an overlay, answer."""
 
 _LOADED = """
 const [here, asked] = [document.URL, arguments[0]].map((url) => url === 'about:blank');
@@ -76,10 +80,10 @@ def _unavailable(reason):
     pytest.skip(reason)
 
 
-def written(folder, content):
-    """Write the page of a run; return where it stands."""
+def written(folder, page):
+    """Write a page, or that of the content of a run; return where it stands."""
     path = folder / "index.html"
-    path.write_text(page_html(content), encoding="utf-8")
+    path.write_text(page if isinstance(page, str) else page_html(page), encoding="utf-8")
     return path
 
 
@@ -105,6 +109,54 @@ def resize(browser, width):
 def run(browser, script, *arguments):
     """Return what a script returns."""
     return browser.execute_script(script, *arguments)
+
+
+def texts(browser, selector):
+    """Return the texts of all elements that a selector finds."""
+    script = "return [...document.querySelectorAll(arguments[0])].map((each) => each.textContent.trim())"
+    return run(browser, script, selector)
+
+
+def by_head(browser, rows):
+    """Return the texts of the cells of rows, by the text of the first."""
+    script = """
+      return Object.fromEntries([...document.querySelectorAll(arguments[0])]
+        .map((row) => [...row.children].map((each) => each.textContent.trim()))
+        .map(([head, ...cells]) => [head, cells]));
+    """
+    return run(browser, script, rows)
+
+
+def click(browser, selector):
+    """Click an element wherever it is: the page scrolls smoothly, and a pointer would come before its end."""
+    run(browser, "document.querySelector(arguments[0]).click()", selector)
+
+
+def choose(browser, name, value, within=".plots"):
+    """Choose a value in one of the lists of the plots."""
+    script = """
+      const choice = document.querySelector(`${arguments[0]} select[data-choice=${arguments[1]}]`);
+      choice.value = arguments[2];
+      choice.dispatchEvent(new Event('change', {bubbles: true}));
+    """
+    run(browser, script, within, name, value)
+
+
+def unfold(browser):
+    """Open every fold of the page."""
+    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
+
+
+def saved(browser, button):
+    """Return what a button saves: the lines of comments, and the rows of the table."""
+    script = """
+      URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; }); return '#'; };
+      document.querySelector(arguments[0]).click();
+    """
+    run(browser, script, button)
+    lines = wait(browser, "return window.saved").splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    return comments, list(csv.DictReader(lines[len(comments) :]))
 
 
 def step_to(browser, slider, place):

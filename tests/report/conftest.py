@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.report.sweep.folder import SweepContent
-from uictest.report.sweep.result import read_sweep_document
+from uictest.report.sweep.result import SweepContent, read_sweep_document
 from uictest.report.traces.trace import trace_of
 
 from .builders import make_content, make_recording, make_result, make_verdict
@@ -62,7 +61,7 @@ def page(tmp_path_factory):
 
 
 def _document(text):
-    """What sweep.json holds of four cases, one of which missed; `text` stands wherever a user's may."""
+    """What results.json holds of four cases, one of which missed; `text` stands wherever a user's may."""
     outcomes = {"pass": 3, "fail": 1, "invalid": 0, "error": 0, "skipped": 0}
     counts = [("80 %", 2, outcomes | {"pass": 2, "fail": 0}), (text, 1, outcomes | {"pass": 1})]
     axes = {

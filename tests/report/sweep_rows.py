@@ -47,7 +47,8 @@ def drawn_rows(cases, failing=()):
         row(
             f"study[sample={k}]",
             "fail" if k in failing else "pass",
-            **{"parameters.rail.friction": f"{frictions[k]:.6f}", "parameters.gain": f"{gains[k]:.6f} 1/s"},
+            **{"parameters.rail.friction": f"{frictions[k]:.6f}", "parameters.gain": f"{gains[k]:.6f} m"},
+            **{"values.rail.friction": round(frictions[k], 6), "values.gain": round(gains[k], 6)},
             braking_distance_m=40.0 / frictions[k],
             maximum_slide_1=0.1,
             maximum_slide_2=0.25,
@@ -57,7 +58,9 @@ def drawn_rows(cases, failing=()):
 
 
 DRAWN = {
-    "rail.friction": [f"{0.1 + 0.01 * k:.2f} .. {0.11 + 0.01 * k:.2f}" for k in range(10)],
-    "gain": ["0.01 .. 0.1 1/s", "0.1 .. 1 1/s"],
+    "rail.friction": [
+        {"low": round(0.1 + 0.01 * k, 2), "high": round(0.11 + 0.01 * k, 2), "unit": ""} for k in range(10)
+    ],
+    "gain": [{"low": 0.01, "high": 0.1, "unit": "m"}, {"low": 0.1, "high": 1.0, "unit": "m"}],
 }
 """Intervals of the parameters of these rows."""

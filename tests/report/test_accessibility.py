@@ -5,16 +5,20 @@ from importlib.resources import files
 
 import pytest
 
+from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
+from studies.study import Study, StudyFindings, StudyResult
+from studies.writing import write_figures, write_pages
+from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import RepeatedStop, Repeats
 from uictest.report import Campaign, CampaignColumn, CampaignTable, RunContent, RunManifest
 from uictest.report.page import page_html, sweep_page_html
-from uictest.report.sweep.folder import SweepContent
+from uictest.report.sweep.result import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .builders import make_recording, make_result
-from .chromium import COMPARED, PLOTTED, emulate, resize, run, wait
+from .chromium import COMPARED, READY, choose, emulate, resize, run, unfold, wait, written
 from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
 _CHECK = """
@@ -49,43 +53,16 @@ return !missing;
 """
 
 
-def violations(browser):
-    """Return what violates a rule on the page that is shown: the rule and the element."""
+def _assert_fit_for_all(browser):
+    """Hold the page that is shown to the rules, contrasts among them, and to the width of its window."""
     run(browser, files("axe_core_python").joinpath("axe.min.js").read_text("utf-8"))
     browser.set_script_timeout(110)
-    return browser.execute_async_script(_CHECK)
-
-
-appearances = pytest.mark.parametrize(("scheme", "width"), [("light", 1400), ("dark", 390)])
-
-
-def shown(browser, page, scheme="light", width=1400):
-    """Open a page in a colour scheme and in a window of so many pixels."""
-    resize(browser, width)
-    emulate(browser, scheme)
-    browser.get(page.as_uri())
-
-
-def assert_fit_for_all(browser):
-    """Hold the page that is shown to the rules, contrasts among them, and to the width of its window."""
-    assert violations(browser) == []
+    assert browser.execute_async_script(_CHECK) == []
     assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
 
 
-@appearances
-def test_the_page_of_a_run(browser, page, scheme, width):
-    """With two cases compared, and with every fold open."""
-    shown(browser, page, scheme, width)
-    run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
-    wait(browser, COMPARED)
-    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
-    wait(browser, _ALL_PLOTTED)
-    assert_fit_for_all(browser)
-
-
-@appearances
-def test_the_page_of_a_log(browser, tmp_path, scheme, width):
-    """With a table at each place, and every fold open."""
+def _log(folder):
+    """The page of a log with a table at each place."""
     word, figure = CampaignColumn("what", "what"), CampaignColumn("number", "number\nm", 2)
     stops, long = CampaignColumn("stops", "stops"), CampaignColumn("why", "why", wraps=True)
     rows = ("dry", 0.5, "stop-0001, stop-0002", "a long reason " * 9), ("wet", 0.1, "", "")
@@ -96,40 +73,116 @@ def test_the_page_of_a_log(browser, tmp_path, scheme, width):
     result = make_result(id="stop-0001", outcome="fail")
     traces = {result.id: trace_of(make_recording())}
     together = Campaign(("friction found in 1 of 2 stops",), tables)
-    page = tmp_path / "index.html"
-    page.write_text(
-        page_html(RunContent("log", [result], traces=traces, campaign=together)), encoding="utf-8"
+    yield page_html(RunContent("log", [result], traces=traces, campaign=together))
+
+
+def _sample(folder):
+    """The page of a sample, with maps and sensitivities."""
+    write_rows(folder, drawn_rows(60, failing=(7, 8, 9)))
+    index = {"value": 0.5, "low": 0.4, "high": 0.6}
+    parts = {"measure": "met", "circumstances": {}, "first": index, "total": index}
+    sensitivities = [{**parts, "key": key} for key in DRAWN]
+    result = sweep_result(DRAWN, 60, logarithmic=["gain"], sensitivities=sensitivities)
+    yield sweep_page_html(SweepContent(folder, result, {}))
+
+
+def _paired_stops(folder):
+    """The pages of two runs that differ in everything a page lists, and of two variants of one run."""
+    sides = [
+        RunContent(name, [_repeated(distance, name)], RunManifest(seed=seed))
+        for seed, (name, distance) in enumerate((("one", 465.0), ("other", 470.0)))
+    ]
+    compared = comparison.compare_runs(*sides, comparison.Tolerances())
+    both = RunContent("both", [case for side in sides for case in side.results])
+    variants = comparison.compare_variants(both, ["controller"])
+    for text in (comparison.comparison_html(compared), comparison.variants_html("both", variants)):
+        assert "Stops under the same noise" in text
+        yield text
+
+
+def _repeated(distance, controller):
+    result = make_result(id="slip", parameters={"controller": controller})
+    stops = tuple(
+        RepeatedStop(
+            seed, "pass", "", (), {**result.measures, "braking_distance_m": distance + seed}, result.wheelsets
+        )
+        for seed in (1, 2, 3)
     )
-    shown(browser, page, scheme, width)
-    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
+    return dataclasses.replace(
+        result, id=f"slip[controller={controller}]", noise_key="00c0ffee", repeats=Repeats("all", stops)
+    )
+
+
+def _index(folder):
+    """The index of three runs of which the second fails, of a sweep that is not finished, and of a folder."""
+    reports = folder / "reports"
+    for outcome in ("pass", "fail", "pass"):
+        results = [make_result(id="slip-120", outcome=outcome), make_result(id="dry-120")]
+        manifest = RunManifest(command=("uictest", "run", outcome), versions={"uictest": "0.1.0"})
+        runs.publish_run(RunContent("", results, manifest), {}, reports, ("html",))
+    (reports / "mine").mkdir()
+    runs.publish_run(report.RunContent("", [make_result(id="dry-120")]), {}, reports, ())
+    yield (reports / "index.html").read_text("utf-8")
+
+
+def _studies(folder):
+    """The pages of a study with a value that holds, one that misses, one that is only shown, and a figure."""
+    pytest.importorskip("matplotlib")
+    ours = OwnBand(lower=16.5, upper=19.0, reason="ours")
+    below = SourceBand(upper=2.0, below=True, declared_miss="Heat.")
+    quantities = (
+        StudyQuantity("time", "braking time", "s", "17.6 s", status="calibrated", band=ours),
+        StudyQuantity("share", "share", "%", "below 2 %", status="predicted", band=below),
+        StudyQuantity("count", "actuations", status="predicted", digits=0),
+    )
+    values = {"time": StudyValue(18.1, 17.9, 18.3), "share": StudyValue(2.5), "count": StudyValue(11.0)}
+    figures = {"figure": lambda figure: figure.subplots().plot([0.0, 1.0], [1.0, 0.0])}
+    findings = StudyFindings(values, {"data": {"time_s": [0.0]}}, figures, ("Made up.",))
+    study = Study("made-up", "A made-up study", "17.6 s", quantities, lambda _: findings)
+    result = StudyResult(study, findings)
+    write_figures(folder, result)
+    write_pages(folder, [result], [], [])
+    for page in (folder / "made-up" / "index.html", folder / "index.html"):
+        yield page.read_text("utf-8")
+
+
+appearances = pytest.mark.parametrize(("scheme", "width"), [("light", 1400), ("dark", 390)])
+
+
+@appearances
+@pytest.mark.parametrize("pages", [_log, _sample, _paired_stops, _index, _studies])
+def test_a_page_with_every_fold_open(browser, tmp_path, pages, scheme, width):
+    resize(browser, width)
+    emulate(browser, scheme)
+    for page in pages(tmp_path):
+        browser.get(written(tmp_path, page).as_uri())
+        unfold(browser)
+        wait(browser, _ALL_PLOTTED)
+        _assert_fit_for_all(browser)
+
+
+@appearances
+def test_the_page_of_a_run(browser, page, scheme, width):
+    """With two cases compared, and with every fold open."""
+    resize(browser, width)
+    emulate(browser, scheme)
+    browser.get(page.as_uri())
+    run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
+    wait(browser, COMPARED)
+    unfold(browser)
     wait(browser, _ALL_PLOTTED)
-    assert_fit_for_all(browser)
+    _assert_fit_for_all(browser)
 
 
 @appearances
 def test_the_page_of_a_sweep(browser, tmp_path, make_sweep, scheme, width):
     worst = make_result(id="study[a]", outcome="fail")
-    page = tmp_path / "index.html"
     sweep = make_sweep((worst,), "x", traces={worst.id: trace_of(make_recording())})
-    page.write_text(sweep_page_html(sweep), encoding="utf-8")
-    shown(browser, page, scheme, width)
-    wait(browser, PLOTTED)
-    assert_fit_for_all(browser)
-
-
-@appearances
-def test_the_maps_and_sensitivities_of_a_sample(browser, tmp_path, scheme, width):
-    """With every map unfolded."""
-    write_rows(tmp_path, drawn_rows(60, failing=(7, 8, 9)))
-    index = {"value": 0.5, "low": 0.4, "high": 0.6}
-    parts = {"measure": "met", "circumstances": {}, "first": index, "total": index}
-    sensitivities = [{**parts, "key": key} for key in DRAWN]
-    result = sweep_result(DRAWN, 60, logarithmic=["gain"], sensitivities=sensitivities)
-    page = tmp_path / "index.html"
-    page.write_text(sweep_page_html(SweepContent(tmp_path, result, {})), encoding="utf-8")
-    shown(browser, page, scheme, width)
-    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
-    assert_fit_for_all(browser)
+    resize(browser, width)
+    emulate(browser, scheme)
+    browser.get(written(tmp_path, sweep_page_html(sweep)).as_uri())
+    wait(browser, _ALL_PLOTTED)
+    _assert_fit_for_all(browser)
 
 
 @appearances
@@ -141,48 +194,11 @@ def test_the_page_of_a_comparison(browser, tmp_path, scheme, width):
     units = {name: second.units[name] for name in fewer}
     tolerances = comparison.Tolerances.read(["speed=2"])
     compared = comparison.compare_recordings(first, Recording(fewer, units), ("a", "b"), tolerances)
-    page = tmp_path / "comparison.html"
-    page.write_text(comparison.comparison_html(compared), encoding="utf-8")
-    shown(browser, page, scheme, width)
-    browser.get(page.as_uri() + "#case-Recordings")
-    wait(browser, "return document.querySelector('.laid-over[data-ready]') !== null")
-    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
-    assert_fit_for_all(browser)
-    run(
-        browser,
-        "const choice = document.querySelector('[data-choice=across]'); choice.value = 'distance';"
-        "choice.dispatchEvent(new Event('change'))",
-    )
-    assert_fit_for_all(browser)
-
-
-@appearances
-def test_the_pages_of_paired_stops(browser, tmp_path, scheme, width):
-    """Two runs that differ in everything a page lists, and two variants of one run."""
-    sides = [
-        RunContent(name, [_repeated(distance, name)], RunManifest(seed=seed))
-        for seed, (name, distance) in enumerate((("one", 465.0), ("other", 470.0)))
-    ]
-    compared = comparison.compare_runs(*sides, comparison.Tolerances())
-    both = RunContent("both", [case for side in sides for case in side.results])
-    variants = comparison.compare_variants(both, ["controller"])
-    for text in (comparison.comparison_html(compared), comparison.variants_html("both", variants)):
-        assert "Stops under the same noise" in text
-        page = tmp_path / "comparison.html"
-        page.write_text(text, encoding="utf-8")
-        shown(browser, page, scheme, width)
-        assert_fit_for_all(browser)
-
-
-def _repeated(distance, controller):
-    result = make_result(id="slip", parameters={"controller": controller})
-    assert result.measures is not None
-    stops = tuple(
-        RepeatedStop(
-            seed, "pass", "", (), {**result.measures, "braking_distance_m": distance + seed}, result.wheelsets
-        )
-        for seed in (1, 2, 3)
-    )
-    return dataclasses.replace(
-        result, id=f"slip[controller={controller}]", noise_key="00c0ffee", repeats=Repeats("all", stops)
-    )
+    resize(browser, width)
+    emulate(browser, scheme)
+    browser.get(written(tmp_path, comparison.comparison_html(compared)).as_uri() + "#case-Recordings")
+    wait(browser, READY)
+    unfold(browser)
+    _assert_fit_for_all(browser)
+    choose(browser, "across", "distance")
+    _assert_fit_for_all(browser)

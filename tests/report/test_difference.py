@@ -4,7 +4,15 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.report import relative_percent
-from uictest.report.difference import Difference, difference_sentences, relative_text, worst_of_wheelsets
+from uictest.report.difference import (
+    Difference,
+    StatusChange,
+    difference_sentences,
+    relative_text,
+    status_difference,
+    turn,
+    worst_of_wheelsets,
+)
 
 
 @pytest.mark.parametrize(
@@ -57,3 +65,32 @@ def test_of_many_differences_the_furthest_out_are_shown_and_the_others_counted()
     assert [line.split()[1] for line in lines[:3]] == ["quantity-30", "quantity-29", "quantity-28"]
     assert lines[3] == "baseline: 27 more quantities out of tolerance, in results.json"
     assert len(difference_sentences(differences)) == 30
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "word"),
+    [
+        ("pass", "fail", "new"),
+        ("skipped", "invalid", "new"),
+        ("pass", "inconclusive", "new"),
+        ("error", "pass", "fixed"),
+        ("fail", "invalid", "turned"),
+        ("not_applicable", "fail", "turned"),
+        ("pass", "not_applicable", "turned"),
+        (None, "fail", "turned"),
+        ("skipped", "pass", "turned"),
+    ],
+)
+def test_a_verdict_that_is_missed_on_one_side_alone_is_new_or_fixed(first, second, word):
+    found = status_difference("case", StatusChange(first, second, "locked-wheels"))
+    assert found is not None
+    assert (found.quantity, turn(found)) == ("criterion locked-wheels", word)
+    assert found.second == second.replace("_", " ")
+
+
+def test_a_number_differs_or_is_within():
+    assert [turn(Difference("", "speed", 1.0, 2.0, within)) for within in (False, True)] == [
+        "differs",
+        "within",
+    ]
+    assert status_difference("case", StatusChange("pass", "pass")) is None

@@ -6,12 +6,15 @@ from html.parser import HTMLParser
 
 import pytest
 
-from uictest.judging.evaluation import Sensitivity, VerdictInterval
+from uictest.judging.evaluation import EffectivePart, Parameter, Sensitivity, VerdictInterval
 from uictest.report import DRAWN, CaseDescription, RunManifest
 from uictest.report.page import page_html
+from uictest.report.page.run_page import maps_of
 from uictest.report.traces.trace import trace_of
 
 from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
+
+_TRACE = trace_of(make_recording(sliding_time="5"))
 
 
 class Page(HTMLParser):
@@ -39,53 +42,107 @@ class Page(HTMLParser):
     def count(self, tag):
         return sum(1 for name, _ in self.elements if name == tag)
 
+    def part(self, first="", last=""):
+        """Return the text between two headings, each blank one space."""
+        text = self.text.partition(f"\n{first}\n")[2] if first else self.text
+        return " ".join((text.partition(f"\n{last}\n")[0] if last else text).split())
+
+
+def of(*results, **changes):
+    """Return the page of some cases."""
+    return page_html(make_content(*results, **changes))
+
 
 @pytest.fixture(scope="module")
 def drawn():
     """The page of one stop that is drawn."""
     result = make_result()
-    return page_html(make_content(result, traces={result.id: trace_of(make_recording(sliding_time="5"))}))
+    return of(result, traces={result.id: _TRACE})
 
 
-def test_every_case_has_a_row_with_its_figures():
-    missed = make_result(id="b", outcome="invalid", criteria=(), reason="the rail was too dry")
-    page = Page(page_html(make_content(make_result(), missed)))
-    assert "2 cases: 1 pass, 1 invalid; 1 not as expected" in page.text
-    for text in ("dry-120[command=90]", "465.2", "27.5", "invalid", "the rail was too dry"):
-        assert text in page.text
-    assert page.count("th") >= 12
+_TURNS = Sensitivity(
+    "low_speed_cutoff", "km/h", 10, 60, (VerdictInterval(10, 40, "pass"), VerdictInterval(50, 60, "fail"))
+)
+_UNMET = make_verdict(id="initial-adhesion", margin=-10.0, status="fail", reason="0.124 g misses < 0.08 g")
+_FAILED = make_verdict(id="locked", layer="requirement", margin=-1.0, status="fail", reason="locked")
+_NOT_DRAWN = make_verdict(id="short-flats", measure="flat_length", status="fail", value=5.0, margin=-600.0)
+_NAMED = make_result(
+    requirements=("BR-CASE",), test_case="WSP-TC-7", criteria=(make_verdict(requirements=("BR-CRITERION",)),)
+)
+_FAILS = make_result(id="b", outcome="fail", requirements=("BR-CASE",), criteria=())
+
+
+@pytest.fixture(scope="module")
+def full():
+    """The page of a run in which cases pass, turn, are no test, fail, are swept and verify requirements."""
+    missed = make_result(id="dry", outcome="invalid", criteria=(), reason="the rail was too dry")
+    no_test = make_result(id="no-test", outcome="invalid", criteria=(_UNMET, _FAILED))
+    turns = make_result(id="turns", criteria=(make_verdict(sensitivity=(_TURNS,)),))
+    flats = make_result(id="flats", outcome="fail", criteria=(_NOT_DRAWN,))
+    grid = [
+        make_result(id=f"{a}{b}", scenario="grid.yaml", parameters={"rail.friction": a, "brake.command": b})
+        for a, b in itertools.product(("0.1", "0.2"), ("80 %", "100 %"))
+    ]
+    manifest = RunManifest(command=("uictest", "run", "-k", "a and b"), versions={})
+    traces = dict.fromkeys(("no-test", "flats", _NAMED.id), _TRACE)
+    results = (missed, no_test, turns, flats, _NAMED, _FAILS, *grid)
+    return Page(of(*results, manifest=manifest, traces=traces, complete=False))
+
+
+_SAID = {
+    ("", "Verdicts"): (
+        "10 cases: 6 pass, 2 fail, 2 invalid; 4 not as expected",
+        "incomplete: not all that was selected was run",
+        "uictest run -k 'a and b'",
+    ),
+    ("Verdicts", "Requirements"): (
+        *("dry-120[command=90]", "465.2", "27.5", "the rail was too dry", "WSP-TC-7: BR-CASE"),
+        *("sensitive to definitions: braking-distance", "7 cases not drawn"),
+    ),
+    ("Requirements", "Stops"): (
+        "not met BR-CASE 2 b (fail) 2 cases",
+        "met BR-CRITERION 1 dry-120[command=90] by braking-distance",
+        "rail.friction (down) against brake.command (across)",
+    ),
+    ("Stops", "Provenance"): (
+        *("short-flats", "test caseWSP-TC-7", "requirementsBR-CASE", "BR-CRITERION"),
+        "locked (requirement) fail: locked",
+    ),
+}
+"""What must stand on the page, between two of its headings."""
+
+
+@pytest.mark.parametrize(("first", "last"), _SAID)
+def test_the_page_says(full, first, last):
+    part = full.part(first, last)
+    assert [words for words in _SAID[first, last] if words not in part] == []
+
+
+def test_a_margin_beyond_the_scale_has_an_arrow(full):
+    amounts = [a["d"] for tag, a in full.elements if tag == "path" and a.get("class") == "amount mark-fail"]
+    assert amounts == ["M0 5L4 0V10z"]
+
+
+def test_a_stop_that_is_no_test_does_not_look_like_a_failure():
+    result = make_result(outcome="invalid", criteria=(_UNMET, _FAILED))
+    page = of(result, traces={result.id: _TRACE})
+    assert page.count('<span class="word word-odd">invalid</span>') == 3
+    assert '<span class="word judgement-inconclusive">not met</span>' in page
+    assert '<span class="word judgement-fail">fail</span>' in page
 
 
 def test_a_drawn_case_can_be_read_without_javascript(drawn):
+    """The valves of the case vent, with both magnets, in one stretch: a lane for each of them."""
     page = Page(drawn)
     assert page.count("path") > 40
     for title in ("Speed of train", "Pressures", "WSP valves"):
         assert title in page.text
     titles = [drawn.index(f'class="plot-{key}"') for key in ("speed", "valves", "pressure")]
     assert titles == sorted(titles)
-
-
-def test_each_wheelset_has_a_lane_for_each_magnet_of_its_valve(drawn):
-    """The valves of the drawn case vent, with both magnets, in one stretch."""
-    page = Page(drawn)
     paths = {a.get("class"): a["d"] for tag, a in page.elements if tag == "path"}
     for n, magnet in itertools.product((1, 2, 3, 4), ("hold", "vent")):
         assert f"{n} {magnet}" in page.text.split("\n")
         assert paths[f"magnet {magnet} role-wheelset-{n}"].count("z") == 1
-
-
-def test_a_stop_that_is_no_test_does_not_look_like_a_failure():
-    unmet = make_verdict(id="initial-adhesion", margin=-10.0, status="fail", reason="0.124 g misses < 0.08 g")
-    failed = make_verdict(
-        id="locked-wheels", layer="requirement", margin=-1.0, status="fail", reason="locked"
-    )
-    result = make_result(outcome="invalid", criteria=(unmet, failed))
-    page = page_html(make_content(result, traces={result.id: trace_of(make_recording(sliding_time="5"))}))
-    assert page.count('<span class="word word-odd">invalid</span>') == 3
-    assert '<span class="word judgement-inconclusive">not met</span>' in page
-    assert '<span class="word judgement-fail">fail</span>' in page
-    reasons = re.search(r'<div class="explanation">(.*?)</div>', page).group(1)
-    assert "<p>locked-wheels (requirement) fail: locked</p>" in reasons
 
 
 def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn):
@@ -101,7 +158,7 @@ def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn):
 
 
 def test_without_anything_to_draw_the_plotting_script_stays_out():
-    html = page_html(make_content(make_result()))
+    html = of(make_result())
     assert len(html) < 200_000  # the rest of the page is most of it
     assert "1 case not drawn" in html
     assert 'id="requirements"' not in html
@@ -114,14 +171,13 @@ def test_hostile_texts_are_shown_and_make_no_element(drawn):
     result = make_result(
         id=bad, scenario=bad, parameters={bad: bad}, outcome="fail", criteria=(verdict,), reason=bad, **named
     )
-    content = make_content(
+    html = of(
         result,
         name=bad,
         manifest=RunManifest(command=(bad,), inputs={bad: bad}, versions={bad: bad}),
         subjects={bad: CaseDescription(bad, (bad,), {bad: bad})},
         traces={bad: trace_of(make_recording())},
     )
-    html = page_html(content)
     page, ordinary = Page(html), Page(drawn)
     for tag in ("script", "img", "b", "svg", "iframe"):
         assert page.count(tag) == ordinary.count(tag)
@@ -141,75 +197,20 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn():
     subject = CaseDescription(
         "Stop from 80 km/h at full command with initial friction coefficients", ("slide",)
     )
-    trace = trace_of(make_recording(sliding_time="5"))
-    content = make_content(
+    html = of(
         *results,
-        traces={result.id: trace for result in results[:30]},
+        traces={result.id: _TRACE for result in results[:30]},
         subjects={result.id: subject for result in results},
     )
-    html = page_html(content)
     assert len(html.encode()) < 10_000_000
     assert html.count('<details class="stop"') == DRAWN
     assert f"{DRAWN} of 1000 cases are drawn" in html
 
 
-_TURNS = Sensitivity(
-    "low_speed_cutoff", "km/h", 10, 60, (VerdictInterval(10, 40, "pass"), VerdictInterval(50, 60, "fail"))
-)
-_COMMAND = RunManifest(command=("uictest", "run", "-k", "a and b"), versions={})
-_GRID = [
-    make_result(id=f"{a}{b}", parameters={"rail.friction": a, "brake.command": b})
-    for a, b in itertools.product(("0.1", "0.2"), ("80 %", "100 %"))
-]
-_NOT_DRAWN = make_verdict(id="short-flats", measure="flat_length", status="fail", value=5.0, margin=-1.0)
-
-
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        (
-            make_content(make_result(criteria=(make_verdict(sensitivity=(_TURNS,)),))),
-            "sensitive to definitions: braking-distance",
-        ),
-        (make_content(*_GRID), "rail.friction (down) against brake.command (across)"),
-        (make_content(make_result(), complete=False), "not all that was selected was run"),
-        (make_content(make_result(), manifest=_COMMAND), "uictest run -k 'a and b'"),
-        (
-            make_content(
-                make_result(outcome="fail", criteria=(_NOT_DRAWN,)),
-                traces={make_result().id: trace_of(make_recording())},
-            ),
-            "short-flats",
-        ),
-    ],
-    ids=["verdict-that-turns", "map-of-two-keys", "incomplete", "command", "criterion-without-a-drawing"],
-)
-def test_the_page_says(content, words):
-    assert words in Page(page_html(content)).text
-
-
-def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_them():
-    verdict = make_verdict(requirements=("BR-CRITERION",))
-    named = make_result(requirements=("BR-CASE",), test_case="WSP-TC-7", criteria=(verdict,))
-    failed = make_result(id="b", outcome="fail", requirements=("BR-CASE",), criteria=())
-    traces = {named.id: trace_of(make_recording())}
-    page = Page(page_html(make_content(named, failed, traces=traces)))
-    table = page.text.partition("\nRequirements\n")[2].partition("\nStops\n")[0]
-    cells = " ".join(table.split())
-    assert "not met BR-CASE 2 b (fail) 2 cases" in cells
-    assert "met BR-CRITERION 1 dry-120[command=90] by braking-distance" in cells
-    row, stop = page.text.partition("\nRequirements\n")[0], page.text.partition("\nStops\n")[2]
-    assert "WSP-TC-7: BR-CASE" in row
-    assert "BR-CRITERION" in stop
-    assert re.search(r"test case\s*WSP-TC-7\s*requirements\s*BR-CASE", stop)
-
-
 def test_the_page_says_how_many_of_the_chosen_cases_it_draws():
     results = [make_result(id=f"case-{n}") for n in range(30)]
-    trace = trace_of(make_recording())
-    traces = {result.id: trace for result in results[:20]}
-    chosen = {result.id for result in results[19:22]}
-    html = page_html(make_content(*results, traces=traces, drawn_first=chosen))
+    traces = {result.id: _TRACE for result in results[:20]}
+    html = of(*results, traces=traces, drawn_first={result.id for result in results[19:22]})
     assert "18 of 30 cases are drawn: those chosen with --draw (not 2 of them), then those not" in html
     assert 'id="case-case-19" ' not in html.partition('id="stops"')[0]
     assert '<details class="stop" id="case-case-19"' in html
@@ -221,8 +222,48 @@ def test_what_is_not_as_expected_comes_first_then_the_narrowest_margins():
         return make_result(id=name, criteria=(verdict,), **changes)
 
     results = [case("wide", 24.0), case("narrow", 1.0), case("missed", -9.0, outcome="fail")]
-    traces = {each.id: trace_of(make_recording()) for each in results}
-    html = page_html(make_content(*results, traces=traces))
+    html = of(*results, traces={each.id: _TRACE for each in results})
     rows = re.findall(r'<tr[^>]* data-word="[^"]*"[\s\S]*?aria-label="Compare ([^"]*)"', html)
     stops = re.findall(r'<details class="stop"[\s\S]*?<h3>([^<]*)</h3>', html)
     assert rows == stops == ["missed", "narrow", "wide"]
+
+
+def _swept(**keys):
+    """Return the cases of a sweep whose scenario says what each parameter is."""
+    cases = []
+    for values in itertools.product(*keys.values()):
+        texts = dict(zip(keys, values, strict=True))
+        parameters = tuple(
+            Parameter(key, float(text.split()[0]) if text[0].isdigit() else text, "", text, "user")
+            for key, text in texts.items()
+        )
+        part = EffectivePart("scenario", "", "", None, parameters)
+        cases.append(make_result(id=str(texts), parameters=texts, parts={"scenario": part}))
+    return cases
+
+
+def test_two_swept_keys_make_a_map_in_the_order_of_their_numbers_or_as_their_texts_came():
+    results = _swept(friction=["0.12", "0.09"], command=["100 %", "80 %"], speed=["80 km/h"])
+    (found,) = maps_of(results)
+    assert (found.row_key, found.column_key) == ("friction", "command")
+    assert (found.rows, found.columns) == (["0.09", "0.12"], ["80 %", "100 %"])
+    assert found.cells[0][1] is results[2]
+    (found,) = maps_of(_swept(state=["bypassed", "active"], friction=["0.12", "0.09"])[1:])
+    assert (found.rows, found.columns) == (["bypassed", "active"], ["0.09", "0.12"])
+    assert found.cells[0][1] is None  # it was excluded
+
+
+_TWICE = _swept(a=["1", "2"], b=["1", "2"]) * 2
+
+
+@pytest.mark.parametrize(
+    "cases", [_swept(a=["1", "2"]), _swept(a=["1", "2"], b=["1", "2"], c=["1", "2"]), _TWICE]
+)
+def test_one_key_three_keys_and_repeated_cases_make_no_map(cases):
+    assert list(maps_of(cases)) == []
+
+
+def test_every_column_of_a_table_says_what_it_holds(drawn):
+    heads = re.findall(r"<th scope=.col.[^>]*>(.*?)</th>", drawn, re.DOTALL)
+    assert heads
+    assert [head for head in heads if not head.strip()] == []

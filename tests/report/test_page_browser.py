@@ -1,148 +1,52 @@
-"""The page in a browser: Chromium, headless, driven by selenium; skipped where there is none."""
-
-import time
+"""The page of a run in a browser: Chromium, headless, driven by selenium; skipped where there is none."""
 
 import pytest
 
-from uictest.judging.evaluation import AppliedDefinition
 from uictest.report import CaseDescription
-from uictest.report.page import sweep_page_html
 from uictest.report.traces.trace import trace_of
 
-from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
-from .chromium import PLOTTED, emulate, resize, run, wait, written
+from .builders import HOSTILE, make_content, make_recording, make_result
+from .chromium import COMPARED, PLOTTED, by_head, click, run, step_to, texts, wait, written
 
 
-def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(browser, page):
-    browser.get(page.as_uri())
-    assert wait(browser, PLOTTED) > 15
-    assert run(browser, "return [...document.querySelectorAll('details.stop[open]')].length") == 1
-    assert run(browser, "return document.querySelectorAll('.loops-plot canvas').length") == 2
-    assert _bars(browser, "valves") == 4
-    kinds = (
-        "return document.querySelector('.panels-plot').plots.flatMap(({marks}) => marks.map((m) => m.kind))"
-    )
-    assert "band" in run(browser, kinds)
-
-
-def _bars(browser, key):
-    """Return how many bars a strip has; of the valves, of the vent magnets."""
-    script = """
-      const {bars} = document.querySelector('details.stop[open] .panels-plot').plots
-        .find(({row}) => row.key === arguments[0]);
-      return bars.filter(({opacity}) => arguments[0] !== 'valves' || opacity === 1)
-        .reduce((sum, {spans}) => sum + spans.length, 0);
-    """
-    return int(run(browser, script, key))
-
-
-def _inked(browser, key, height):
-    """Return how many separate stretches are green in a panel, at a share of its height."""
-    script = """
-      const {plot} = document.querySelector('details.stop[open] .panels-plot').plots
-        .find(({row}) => row.key === arguments[0]);
-      const {left, top, width, height} = plot.bbox;
-      const {data} = plot.ctx.getImageData(left, Math.round(top + arguments[1] * height), width, 1);
-      const strong = Array.from({length: width}, (_, k) => data[4 * k + 1] > data[4 * k] + 60);
-      return strong.filter((inked, k) => inked && !strong[k - 1]).length;
-    """
-    return int(run(browser, script, key, height))
-
-
-def test_every_vent_is_painted_however_short_and_wherever_one_zooms(browser, tmp_path):
-    recording = make_recording(34001)
-    for n in (1, 2, 3, 4):
-        recording[f"valve_command_{n}"][:] = 0.0
-    recording["valve_command_2"][1000:33000:100] = 2.0  # a vent of 1 ms every 0.1 s
-    result = make_result()
-    content = make_content(result, traces={result.id: trace_of(recording)})
-    browser.get(written(tmp_path, content).as_uri())
-    wait(browser, PLOTTED)
-    assert _bars(browser, "valves") == 320
-    zoom = "document.querySelector('.panels-plot').plots[0].plot.setScale('x', {min: 9.95, max: 10.35})"
-    browser.execute_script(zoom)
-    assert wait(browser, "return document.querySelector('.panels-plot').plots[1].plot.scales.x.max < 11")
-    time.sleep(0.3)
-    below_middle = (2 + 0.32 - 0.5) / 4  # of the vent magnet of the second of four rows
-    assert _inked(browser, "valves", below_middle) == 4
-
-
-def test_the_criterion_that_failed_is_named_and_drawn_first(browser, tmp_path):
-    locked = {"wheel_speed_4": 0.0, "slide_4": 1.0}
-    recording = make_recording()
-    for name, value in locked.items():
-        recording[name][500:900] = value
-    definitions = tuple(
-        AppliedDefinition(name, value, "m/s", "chosen")
-        for name, value in (("locked_speed", 0.1), ("moving_speed", 10 / 3.6))
-    )
-    lock = make_verdict(
-        id="locked-wheels", measure="longest_lock", status="fail", value=4.0, unit="s", upper=1.0,
-        lower=None, margin=-3.0, definitions=definitions,
-    )  # fmt: skip
-    result = make_result(outcome="fail", criteria=(make_verdict(measure="braking_distance"), lock))
-    content = make_content(result, traces={result.id: trace_of(recording, result.criteria)})
-    browser.get(written(tmp_path, content).as_uri())
-    wait(browser, PLOTTED)
-    criteria = "return [...document.querySelectorAll('table.margins tbody th')].map(h => h.firstChild.data)"
-    assert run(browser, criteria) == ["locked-wheels", "braking-distance"]
-    assert _bars(browser, "locked") == 1
-
-
-def test_a_link_from_the_table_opens_its_case(browser, page):
+@pytest.fixture
+def opened(browser, page):
+    """The browser, in which the missed one of three cases is open and drawn."""
     browser.get(page.as_uri())
     wait(browser, PLOTTED)
-    run(browser, "document.querySelector('.verdicts a[href$=dry-120]').click()")
-    assert wait(browser, "return document.querySelector('[id=case-dry-120]').open")
-    assert wait(browser, "return document.querySelectorAll('[id=case-dry-120] .panels-plot canvas').length")
+    return browser
 
 
-def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser, page):
-    browser.get(page.as_uri())
-    wait(browser, PLOTTED)
-    slider = browser.find_element("css selector", "details[open] .readout input")
-    before = slider.get_attribute("aria-valuetext")
-    slider.send_keys("\ue014" * 200)  # arrow right, 6.8 s
-    assert slider.get_attribute("aria-valuetext") != before
-    cells = run(
-        browser, "return [...document.querySelectorAll('details[open] .readout td')].map(c => c.innerText)"
-    )
-    assert "40.0" in cells
-    assert "vent" in cells
+def test_the_missed_case_is_open_and_drawn_with_its_criteria_and_lines_can_be_switched_off(opened):
+    lines = wait(opened, PLOTTED)
+    assert lines > 15
+    assert texts(opened, "details.stop[open] h3") == ["slip-120"]
+    assert len(texts(opened, ".loops-plot canvas")) == 2
+    plots = "return document.querySelector('.panels-plot').plots"
+    vents = f"{plots}.find(({{row}}) => row.key === 'valves').bars.filter(({{opacity}}) => opacity === 1)"
+    assert run(opened, f"{vents}.flatMap(({{spans}}) => spans).length") == 4
+    assert "band" in run(opened, f"{plots}.flatMap(({{marks}}) => marks.map((m) => m.kind))")
+    click(opened, "details[open] .key input[data-role=wheelset-2]")
+    assert wait(opened, f"const count = () => {{{PLOTTED}}}; return count() < {lines}")
 
 
-def test_lines_can_be_switched_off(browser, page):
-    browser.get(page.as_uri())
-    before = wait(browser, PLOTTED)
-    run(browser, "document.querySelector('details[open] .key input[data-role=wheelset-2]').click()")
-    assert wait(browser, f"const count = () => {{{PLOTTED}}}; return count() < {before}")
+def test_a_link_from_the_table_opens_its_case(opened):
+    click(opened, ".verdicts a[href$=dry-120]")
+    assert wait(opened, "return document.querySelector('[id=case-dry-120]').open")
+    assert wait(opened, "return document.querySelectorAll('[id=case-dry-120] .panels-plot canvas').length")
 
 
 def test_it_can_be_read_without_javascript(browser, page):
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     browser.get(page.as_uri())
     text = browser.find_element("tag name", "body").text
-    for shown in (
-        "3 cases: 1 pass, 1 expected fail, 1 invalid; 1 not as expected",
-        "slip-120",
-        "Criteria",
-        "Wheelsets, 1 leads",
-        "Provenance",
-    ):
+    counts = "3 cases: 1 pass, 1 expected fail, 1 invalid; 1 not as expected"
+    for shown in (counts, "slip-120", "Criteria", "Wheelsets, 1 leads", "Provenance"):
         assert shown in text
     sketch = browser.find_element("css selector", "details[open] svg.panels")
     assert sketch.size["height"] > 300
     hidden = browser.find_elements("css selector", ".filters, .theme, .readout, .key input")
     assert not any(element.is_displayed() for element in hidden)
-
-
-def test_on_paper_stands_the_drawing_and_no_control(browser, page):
-    browser.get(page.as_uri())
-    wait(browser, PLOTTED)
-    emulate(browser, media="print")
-    assert browser.find_element("css selector", "details[open] svg.panels").is_displayed()
-    assert not browser.find_element("css selector", "details[open] .panels-plot").is_displayed()
-    assert not browser.find_element("css selector", "form.filters").is_displayed()
 
 
 def test_hostile_texts_are_not_executed(browser, tmp_path):
@@ -168,75 +72,48 @@ def test_a_thousand_cases_open(browser, tmp_path):
     traces = {result.id: trace for result in results[:40]}
     browser.get(written(tmp_path, make_content(*results, traces=traces)).as_uri())
     assert run(browser, "return document.querySelectorAll('.verdicts tbody tr').length") == 1000
-    took = run(browser, "return performance.getEntriesByType('navigation')[0].domComplete")
-    print(f"opened in {took:.0f} ms")  # noqa: T201 - shown with -rP; how fast it is depends on the machine
     assert wait(browser, PLOTTED)
 
 
-@pytest.fixture
-def sweep_page(tmp_path, make_sweep):
-    """The page of a sweep with a drawn case that was not met."""
-    worst = make_result(
-        id="study[a]", outcome="fail", parameters={"brake.x": "80 %", "rail.friction": "0.10"}
+def _compare(browser, *numbers):
+    """Choose cases in the table, and wait until they are laid over each other."""
+    for number in numbers:
+        run(browser, "document.querySelectorAll('tbody .compare')[arguments[0]].click()", number)
+    assert wait(browser, COMPARED) == len(numbers)
+
+
+def test_two_cases_stand_in_one_plot_with_one_time_axis(opened):
+    assert not opened.find_element("id", "compared").is_displayed()
+    run(opened, "document.querySelector('tbody .compare').click()")
+    assert opened.find_element("css selector", ".comparison-bar").text.startswith("1 case chosen")
+    run(opened, "document.querySelector('tbody .compare').click()")
+    _compare(opened, 0, 2)
+    names = texts(opened, ".cases a")
+    assert names == ["slip-120", "dry-120"]
+    traces = run(
+        opened,
+        "return document.querySelector('.compared-plot').plots.flatMap(({lines, plot}) => lines.map((each) =>"
+        " [each.label, each.ink, String(each.dash), plot.scales.x.max]))",
     )
-    traces = {worst.id: trace_of(make_recording())}
-    path = tmp_path / "index.html"
-    path.write_text(sweep_page_html(make_sweep((worst,), "x", traces=traces)), encoding="utf-8")
-    return path
+    by_case = {name: {tuple(style) for own, *style in traces if own == name} for name in names}
+    ((first,), (second,)) = by_case.values()
+    assert first[0] != second[0]
+    assert first[1] != second[1]
+    assert first[2] == second[2]
 
 
-def test_a_sweeps_worst_case_is_drawn_and_reached_from_the_map(browser, sweep_page):
-    browser.get(sweep_page.as_uri())
-    assert wait(browser, PLOTTED) > 15
-    # The page scrolls smoothly: a click with the pointer would come before its end.
-    run(browser, "document.querySelector('.swept-map a').click()")
-    assert browser.current_url.endswith("#case-study%5Ba%5D")
+def test_the_cursor_reads_every_case_next_to_its_measures_until_the_comparison_is_cleared(opened):
+    _compare(opened, 0, 1)
+    step_to(opened, opened.find_element("css selector", "#compared input[type=range]"), 294)  # 10 s
+    rows = by_head(opened, ".values tbody tr")
+    assert rows["slide, %"] == ["40.0", "40.0"]
+    assert rows["train, km/h"] == ["84.0", "84.0"]
+    assert rows["braking distance"] == ["465.2 m", "465.2 m"]
+    opened.find_element("css selector", "#compared .clear").click()
+    assert wait(opened, "return document.querySelector('#compared').hidden")
+    assert texts(opened, "input.compare:checked") == []
+    assert run(opened, "return document.activeElement.matches('input.compare')")
 
 
-def test_a_sweep_can_be_read_without_javascript(browser, sweep_page):
-    browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
-    browser.get(sweep_page.as_uri())
-    text = browser.find_element("tag name", "body").text
-    for shown in (
-        "4 cases: 3 pass, 1 fail; 1 not as expected",
-        "study[a]",
-        "Measures over rail.friction",
-        "Frontier along",
-        "Provenance",
-    ):
-        assert shown in text
-    assert (
-        browser.find_element("css selector", "section[aria-labelledby=lines-1] svg.plot").size["height"] > 100
-    )
-
-
-_ENDS = """
-return [...document.querySelectorAll(arguments[0])].map(each => each.getBoundingClientRect().right)
-"""
-
-
-@pytest.mark.parametrize("width", [1400, 390])
-def test_figures_and_frontier_of_a_sweep_are_in_sight_without_scrolling(browser, tmp_path, make_sweep, width):
-    flips = [{"low": "0.10", "high": "0.12", "met_at_low": False}]
-    stretches = [
-        {"circumstances": {"speed": f"{speed} km/h"}, "flips": flips, "note": ""} for speed in (60, 90)
-    ]
-    index = {"value": 0.512, "low": 0.412, "high": 0.612}
-    sensitivity = {
-        "measure": "braking_distance_m",
-        "circumstances": {},
-        "key": "brake.system.wsp_valve.vent_conductance",
-    }
-    content = make_sweep(
-        text="x",
-        frontier={"parameter": "rail.friction", "stretches": stretches},
-        sensitivities=[{**sensitivity, "first": index, "total": index}],
-    )
-    path = tmp_path / "index.html"
-    path.write_text(sweep_page_html(content), encoding="utf-8")
-    resize(browser, width)
-    browser.get(path.as_uri())
-    for shown in (".indices td.number", ".worst td.number", "svg.frontier"):
-        ends = run(browser, _ENDS, shown)
-        assert ends
-        assert max(ends) <= width
+def test_all_of_three_cases_can_be_compared(opened):
+    _compare(opened, 0, 1, 2)

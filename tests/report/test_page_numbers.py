@@ -10,9 +10,8 @@ import pytest
 from uictest.cli.entry import execute
 from uictest.core.recording import read_parquet
 
-from .chromium import run, wait
+from .chromium import READY, by_head, run, texts, wait
 
-READY = "return document.querySelector('.plots[data-ready]') !== null"
 SCALES = {"km/h": 1 / 3.6, "%": 0.01, "bar": 1e5, "kN": 1e3, "m": 1.0, "1": 1.0}
 ROWS = {
     "wheelset, km/h": "wheel_speed",
@@ -66,37 +65,27 @@ def test_a_report_that_draws_no_stop_names_no_instant(finished, tmp_path):
     assert "taken at" not in written
 
 
-def _open(browser, finished):
+@pytest.fixture
+def stop(browser, finished):
+    """The browser, in which the plots of the stop answer."""
     browser.get((finished / "index.html").as_uri())
     run(browser, "document.querySelector('details.stop').open = true")
     run(browser, "document.querySelector('details.stop .plots').scrollIntoView()")  # drawn when it comes near
     wait(browser, READY)
+    return browser
 
 
-def _shown_at(browser, share):
-    """Move the cursor to a share of the stop; return its time and the cells by the heads of their rows."""
-    run(
-        browser,
-        "const slider = document.querySelector('.readout input'); slider.value = arguments[0] * slider.max;"
-        "slider.dispatchEvent(new Event('input'))",
-        share,
-    )
-    cells = run(
-        browser,
-        "return Object.fromEntries([...document.querySelectorAll('.readout tbody tr, .train-readout div')]"
-        ".map((row) => [...row.children].map((each) => each.textContent))"
-        ".map(([head, ...cells]) => [head, cells]))",
-    )
-    slider = browser.find_element("css selector", ".readout input")
-    return float(slider.get_attribute("value")) / 1000.0, cells
-
-
-def test_the_cursor_reads_what_was_recorded(browser, finished, recording):
-    _open(browser, finished)
+def test_the_cursor_reads_what_was_recorded(stop, recording):
     time = recording["time"]
     compared = 0
     for share in (0.013, 0.17, 0.331, 0.502, 0.678, 0.85):
-        moved, cells = _shown_at(browser, share)
+        moved = run(
+            stop,
+            "const slider = document.querySelector('.readout input'); slider.value = arguments[0] * 1000;"
+            "slider.dispatchEvent(new Event('input')); return slider.value / 1000;",
+            share,
+        )
+        cells = by_head(stop, ".readout tbody tr, .train-readout div")
         at = time[0] + moved * (time[-1] - time[0])
         for head, key in (ROWS | TRAIN).items():
             scale = SCALES[head.partition(", ")[2] or "1"]
@@ -109,25 +98,21 @@ def test_the_cursor_reads_what_was_recorded(browser, finished, recording):
     assert compared == 6 * 28
 
 
-def test_every_vent_of_the_counters_is_in_the_table_and_in_the_plots(browser, finished, result):
-    _open(browser, finished)
+def test_every_vent_of_the_counters_is_in_the_table_and_in_the_plots(stop, result):
     counted = [wheelset["valve_actuations"] for wheelset in result["wheelsets"]]
-    column = "return [...document.querySelectorAll('.vents tbody td:nth-child(2)')].map((e) => e.textContent)"
-    column = "return [...document.querySelectorAll('.vents tbody td:nth-child(2)')].map((e) => e.textContent)"
-    numbers = run(browser, column)
+    numbers = texts(stop, ".vents tbody td:nth-child(2)")
     assert [numbers.count(str(n)) for n in (1, 2, 3, 4)] == counted
     spans = run(
-        browser,
+        stop,
         "return document.querySelector('.panels-plot').plots.find(({row}) => row.key === 'valves').bars"
         ".filter(({opacity}) => opacity === 1).map(({spans}) => spans.length)",
     )
     assert spans == counted
 
 
-def test_values_and_margins_are_those_of_the_result(browser, finished, result):
-    _open(browser, finished)
+def test_values_and_margins_are_those_of_the_result(stop, result):
     shown = run(
-        browser,
+        stop,
         "return Object.fromEntries([...document.querySelectorAll('table.margins tbody tr')].map((row) =>"
         " [row.querySelector('th').firstChild.data.trim(), row.textContent]))",
     )
@@ -135,7 +120,5 @@ def test_values_and_margins_are_those_of_the_result(browser, finished, result):
     assert len(judged) >= 4
     for each in judged:
         assert f"{each['value']:.5g}" in shown[each["id"]]
-    distance = run(
-        browser, "return parseFloat(document.querySelector('details.stop .figures dd').textContent)"
-    )
+    distance = float(texts(stop, "details.stop .figures dd")[0].split()[0])
     assert distance == pytest.approx(result["measures"]["braking_distance_m"], rel=5e-4)

@@ -1,9 +1,11 @@
 """The page of a sweep: what stands on it, and that nothing in it runs."""
 
+import re
 from dataclasses import replace
 
 from uictest.report.page import sweep_page_html
-from uictest.report.sweep.folder import SweepContent
+from uictest.report.sweep.result import SweepContent
+from uictest.report.sweep.sweep_tables import rates_table
 from uictest.report.traces.trace import trace_of
 
 from .builders import HOSTILE, make_recording, make_result
@@ -11,18 +13,21 @@ from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 from .test_page import Page
 
 
-def test_every_finding_has_a_heading(make_sweep):
-    text = Page(sweep_page_html(make_sweep())).text
-    headings = "4 cases: 3 pass, 1 fail; 1 not as expected; Cases met, %; Frontier along 90 %"
-    others = "Cases met by parameter; Measures over rail.friction; What the measures depend on"
-    for heading in (*headings.split("; "), *others.split("; "), "Cases most worth looking at", "Provenance"):
+def test_every_finding_has_a_heading_and_what_was_asked_comes_before_the_maps(make_sweep):
+    content = make_sweep()
+    html = sweep_page_html(content)
+    text = Page(html).text
+    for heading in (
+        *("4 cases: 3 pass, 1 fail; 1 not as expected", "Cases met, %", "Frontier along 90 %"),
+        *("Cases met by parameter", "Measures over rail.friction", "What the measures depend on"),
+        *("Cases most worth looking at", "Provenance"),
+    ):
         assert heading in text
-
-
-def test_what_was_asked_comes_before_the_maps(make_sweep):
-    text = Page(sweep_page_html(make_sweep())).text
     asked = [text.index(heading) for heading in ("Frontier along", "What the measures depend on", "Maps")]
     assert asked == sorted(asked)
+    # Of two cases each two and one are met.
+    assert [row["share_met"] for row in rates_table(content.result).records] == [1.0, 0.5]
+    assert re.findall(r'class="bar[^"]*" style="width: ([\d.]+)%"', html) == ["100.0", "50.0"]
 
 
 def test_of_a_sample_the_outcomes_are_mapped_and_the_measures_drawn_as_trends(tmp_path):

@@ -8,10 +8,10 @@ import pytest
 from uictest.report import csv_cell
 
 
-def assert_as_csv(folder, workbook):
-    """Hold the sheets of a workbook to the CSV files of a folder: the same tables, cell by cell."""
-    files = {path.stem: path for path in folder.glob("*.csv")}
-    book = openpyxl.load_workbook(workbook)
+def assert_as_csv(folder):
+    """Hold the sheets of the workbook of a folder to its CSV files: the same tables, cell by cell."""
+    files = {path.stem: path for path in folder.rglob("*.csv")}
+    book = openpyxl.load_workbook(folder / "report.xlsx")
     assert sorted(book.sheetnames) == sorted(files)
     for name, path in files.items():
         with path.open(newline="", encoding="utf-8") as file:

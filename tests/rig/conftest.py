@@ -15,12 +15,11 @@ from uictest.controllers import CONTROLLERS
 from uictest.core.record import layout_of
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.stops import compiled_rig
-from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.start import start
+from uictest.rig.model.parameters import WHEELSET_PARAMETERS, Parameters, WheelsetParameters
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.stop import start
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
+from uictest.rig.stops import compiled_rig
 from uictest.rig.train_stop import run_to_end
 
 Array = NDArray[np.float64]

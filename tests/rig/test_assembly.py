@@ -1,17 +1,21 @@
 """From a scenario to the numbers of the rig."""
 
+from operator import itemgetter
+
 import control
 import numpy as np
 import pytest
+from scipy.signal import butter, lfilter
 
-from uictest.core.physics.air import REFERENCE_DENSITY
-from uictest.core.physics.valves import LONGEST_DELAY_CYCLES
+from uictest.core.physics.air import LONGEST_DELAY_CYCLES, REFERENCE_DENSITY
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import ScenarioErrors
-from uictest.rig.assembly import assemble, friction_laws
-from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.assembly import ASSIGNMENTS, Assignment, RecordAssembler, assemble, friction_laws
+from uictest.rig.brake_assembly import resampled_transfer_function
+from uictest.rig.model.parameters import PARAMETERS, WHEELSET_PARAMETERS
 from uictest.rig.model.rail import MARGIN, POINTS
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+
+from ..stop_bits import bits
 
 
 def test_every_parameter_of_every_shipped_case_is_a_number(scenarios, rig):
@@ -24,6 +28,36 @@ def test_every_parameter_of_every_shipped_case_is_a_number(scenarios, rig):
         assert not any(np.isnan(parameters[name]).any() for name in endless)
         assert all(np.isfinite(wheelset_parameters[name]).all() for name in WHEELSET_PARAMETERS.names)
         assert np.isfinite(rail).all()
+
+
+def test_a_record_does_not_depend_on_what_was_assembled_before(scenarios, rig):
+    """What a scenario shares with the one before is not computed again, in whatever order they come."""
+
+    def assembler():
+        return RecordAssembler(PARAMETERS, ASSIGNMENTS, frozenset({"noise_key"}))
+
+    base, other = rig.case().scenario, rig.case("rail.friction=0.09", "brake.command=70 %").scenario
+    sharing = [base.model_copy(update={name: getattr(other, name)}) for name in ("rail", "brake", "vehicle")]
+    cases = [*(case.scenario for case in scenarios if case.train is None), *sharing, base]
+    alone = [assembler().record(scenario).tobytes() for scenario in cases]
+    one = assembler()
+    assert [one.record(scenario).tobytes() for scenario in cases] == alone
+    assert [one.record(scenario).tobytes() for scenario in reversed(cases)] == alone[::-1]
+
+
+def test_a_function_is_called_again_where_what_it_is_given_is_another_object():
+    calls = []
+
+    def set_both(parameters, first, second):
+        calls.append((first, second))
+        parameters.total = first + second
+
+    arguments = tuple(itemgetter(k) for k in range(2))
+    assembler = RecordAssembler(np.dtype([("total", "f8")]), [Assignment(set_both, arguments)], frozenset())
+    one, two, three = 1001.5, 1002.5, 1003.5
+    totals = [assembler.record(given)["total"][0] for given in ((one, two), (one, two), (three, two))]
+    assert totals == [2004.0, 2004.0, 2006.0]
+    assert calls == [(one, two), (three, two)]
 
 
 def test_wheels_carry_the_weight(rig):
@@ -239,3 +273,125 @@ def test_the_digest_of_a_case_names_what_decides_its_stop(rig):
         digest("seed=1"),
     }
     assert len(others | {own}) == 6
+
+
+IDENTIFIED = 5e-4
+LAGS = np.exp(-IDENTIFIED / np.array([30e-3, 8e-3, 3e-3]))
+FILTERS = {
+    "three lags": (np.poly(LAGS).sum() * np.array([0.4, 0.3, 0.2, 0.1]), np.poly(LAGS)),
+    "oscillating": butter(3, 20.0, fs=1.0 / IDENTIFIED),
+}
+held = np.repeat(np.random.default_rng(8).normal(2e5, 1e5, 50), 40)
+
+
+@pytest.mark.parametrize("kind", FILTERS)
+@pytest.mark.parametrize("parts", [2, 5])
+def test_finer_step_reproduces_the_response(kind, parts):
+    """To any input that is held for the step of the identification, at each of its instants."""
+    numerator, denominator = FILTERS[kind]
+    b, a = resampled_transfer_function(list(numerator), list(denominator[1:]), IDENTIFIED, IDENTIFIED / parts)
+    fine = lfilter(b, [1.0, *a], np.repeat(held, parts))
+    np.testing.assert_allclose(fine[::parts], lfilter(numerator, denominator, held), rtol=1e-6, atol=1.0)
+
+
+@pytest.mark.parametrize("kind", FILTERS)
+def test_coarser_step_reproduces_the_response(kind):
+    """To any input that is held for the coarser step."""
+    numerator, denominator = FILTERS[kind]
+    b, a = resampled_transfer_function(list(numerator), list(denominator[1:]), IDENTIFIED, 2.0 * IDENTIFIED)
+    fine = lfilter(numerator, denominator, held)
+    np.testing.assert_allclose(lfilter(b, [1.0, *a], held[::2]), fine[::2], rtol=1e-6, atol=1.0)
+
+
+@pytest.mark.parametrize("kind", FILTERS)
+@pytest.mark.parametrize("share", [0.25, 0.5, 2.0])
+def test_constant_pressure_still_comes_out_as_it_went_in(kind, share):
+    numerator, denominator = FILTERS[kind]
+    b, a = resampled_transfer_function(list(numerator), list(denominator[1:]), IDENTIFIED, share * IDENTIFIED)
+    assert sum(b) / (1.0 + sum(a)) == pytest.approx(1.0, rel=1e-6)
+
+
+def test_coefficients_at_their_own_step_are_left_alone():
+    numerator, denominator = [0.1, 0.2, 0.3, 0.4], [-0.1, 0.05, 0.0]
+    assert resampled_transfer_function(numerator, denominator, IDENTIFIED, IDENTIFIED) == (
+        numerator,
+        denominator,
+    )
+
+
+FOUR = "rig.topology=four-caliper"
+PAYLOAD = "vehicle.payload=8 t"
+VALVE = "brake.system.load_valve={empty_share: 80 %}"
+
+
+def highest_demand(rig, *overrides):
+    return float(rig.columns(*overrides)["demanded_pressure"].max())
+
+
+def test_a_loaded_car_is_a_car_with_the_heavier_body_of_the_same_radius_of_gyration(rig):
+    body = rig.case().scenario.vehicle.body
+    mass = body.mass + 8000.0
+    inertia = body.pitch_inertia * (mass / body.mass)
+    heavier = (f"vehicle.body.mass={mass!r} kg", f"vehicle.body.pitch_inertia={inertia!r} kg m2")
+    loaded = rig.stop(PAYLOAD, "vehicle.load=full", FOUR)
+    assert bits(loaded) == bits(rig.stop(*heavier, FOUR))
+    assert bits(rig.stop(PAYLOAD, "vehicle.load=8000 kg", FOUR)) == bits(loaded)
+
+
+def test_an_empty_car_is_the_car_without_a_payload(rig):
+    alone = bits(rig.stop(FOUR))
+    for load in ("empty", "0 t"):
+        assert bits(rig.stop(PAYLOAD, f"vehicle.load={load}", FOUR)) == alone
+
+
+@pytest.mark.parametrize(("load", "share"), [("empty", 0.8), ("2 t", 0.85), ("full", 1.0)])
+def test_the_pressure_is_linear_in_the_load(rig, load, share):
+    full = rig.case().scenario.brake.system.positions["R"].maximum_pressure
+    demand = highest_demand(rig, PAYLOAD, VALVE, f"vehicle.load={load}", "brake.command=50 %", FOUR)
+    assert demand == pytest.approx(0.5 * share * full, rel=1e-9)
+
+
+def test_a_valve_that_follows_the_mass_keeps_the_stopping_distance(rig):
+    """Force follows the pressure beyond that of touching pads; its share is that of the masses."""
+    scenario = rig.case().scenario
+    caliper, mass = scenario.rig.caliper, scenario.vehicle.total_mass
+    touching = caliper.preload + caliper.spring_rate * caliper.clearance + caliper.coulomb_friction
+    lost = touching / caliper.piston_area / scenario.brake.system.positions["R"].maximum_pressure
+    share = lost + (1.0 - lost) * mass / (mass + 8000.0)
+    valve = f"brake.system.load_valve={{empty_share: {100.0 * share:.6f} %}}"
+    empty, full = (
+        rig.stop(PAYLOAD, valve, f"vehicle.load={load}", FOUR).measures.braking_distance
+        for load in ("empty", "full")
+    )
+    assert full == pytest.approx(empty, rel=0.01)
+    without = rig.stop(PAYLOAD, "vehicle.load=full", FOUR).measures.braking_distance
+    assert without > 1.1 * rig.stop(FOUR).measures.braking_distance
+
+
+def test_controllers_see_the_share_of_the_command_whatever_the_load(rig):
+    for load in ("empty", "full"):
+        p, _ = rig.parameters(PAYLOAD, VALVE, f"vehicle.load={load}", "brake.command=60 %", FOUR)
+        assert p["commanded_pressure"] * p["demand_per_pressure"] == pytest.approx(0.6)
+
+
+def test_wheel_loads_carry_the_load_and_everything_balances(rig):
+    stop = rig.stop(PAYLOAD, VALVE, "vehicle.load=full", FOUR, "rail.condition=wet", "rail.friction=0.1")
+    assert abs(stop.measures.energy_residual) < 1e-9
+    loads = rig.columns(PAYLOAD, "vehicle.load=full", FOUR)["wheel_load"]
+    mass = rig.case().scenario.vehicle.total_mass + 8000.0
+    assert np.median(loads.sum(axis=1)) == pytest.approx(mass * 9.80665 / 2.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (["vehicle.load=full"], "this car has no payload"),
+        ([PAYLOAD, "vehicle.load=9 t"], "more than the payload of 8 t"),
+        ([PAYLOAD, "vehicle.load=laden"], "expected one of empty, full"),
+        ([VALVE], "no payload that the pressure could follow"),
+        ([PAYLOAD, "brake.system.load_valve={empty_share: 5 %}"], "5 %"),
+    ],
+)
+def test_what_cannot_be_is_refused(rig, settings, message):
+    with pytest.raises(Exception, match=message):
+        rig.case(*settings)

@@ -6,15 +6,13 @@ import pytest
 from uictest.judging.evaluation import evaluate_simulated
 from uictest.rig.simulation import simulate
 
+from ..stop_bits import bits
+
 BYPASSED = ("rig.wsp=bypassed", "rig.topology=four-caliper")
 SERVICE = "brake.command=[{at: 0 s, value: 60 %}, {at: 4 s, value: 100 %, position: emergency}]"
 RELEASED = "brake.command=[{at: 0 s, value: 100 %}, {at: 6 s, value: 0 %}]"
 AGAIN = "brake.command=[{at: 0 s, value: 100 %}, {at: 5 s, value: 0 %}, {at: 9 s, value: 80 %}]"
 STEPS_PER_SECOND = 2000
-
-
-def bits(stop):
-    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
 
 
 def position(rig, name="R"):

@@ -4,20 +4,19 @@ Stops are run in this process; every kind of controller is opened as in any stop
 """
 
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from uictest.controllers import HEADER, ControllerError
+from uictest.controllers import ControllerError
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.external.block import BlockInputs, run_block
-from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.in_process import BlockInputs, run_block, run_in_process
 from uictest.rig.simulation import simulate
 
-from ..stop_bits import stop_bits
+from ..c_compiler import build_library
+from ..stop_bits import bits, stop_bits
 
 SLIP_BAND = Path(__file__).parents[1] / "sweeps" / "controllers" / "slip_band.py"
 SCENARIO = """\
@@ -88,19 +87,11 @@ def library(tmp_path):
     """Compile the same in C."""
 
     def built(change="", name="libwsp.so", text=C):
-        compiler = shutil.which("gcc")
-        if compiler is None:
-            pytest.skip("no C compiler")
         (tmp_path / "wsp.c").write_text(text.replace("CHANGE", change))
-        options = ["-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", "-o", name, "wsp.c"]
-        subprocess.run([compiler, *options], cwd=tmp_path, check=True)
+        build_library(tmp_path / name, tmp_path / "wsp.c")
         return f"{{library: {name}}}"
 
     return built
-
-
-def bits(stop):
-    return stop.measures.tobytes() + stop.wheelset_measures.tobytes()
 
 
 def test_a_reduction_takes_the_brake_of_its_wheelset_within_the_response_and_of_no_other(stop_of, python):
@@ -198,12 +189,7 @@ def test_a_library_gives_the_bits_of_the_class_alone_and_in_lanes(stop_of, pytho
     other = assemble(stop_of(library(), SLIPPERY))
     assert bits(run_in_process(other)) == bits(expected)
     stops = [other, assemble(stop_of("threshold", SLIPPERY)), assemble(case)]
-    programs, configs = ([getattr(each, name) for each in stops] for name in ("program", "config"))
-    records = ("parameters", "wheelset_parameters", "rail")
-    block = BlockInputs(
-        programs, configs, *(np.array([getattr(each, name) for each in stops]) for name in records)
-    )
-    run = run_block(block)
+    run = run_block(BlockInputs.of(stops))
     assert run.failures == ["", "", ""]
     for place in (0, 2):
         own = run.measures[place].tobytes() + run.wheelset_measures[place].tobytes()
@@ -292,10 +278,7 @@ def test_a_library_is_of_the_version_that_it_has_stated_first(stop_of, library, 
 
 PARTS = {
     "sander": (SCENARIO, "sanders: [{wheelset: 3, rate: 2 kg/min, when: requested}]\n"),
-    "track brake": (
-        SCENARIO.replace("1.6 MW}", "1.6 MW}, track: {attraction: 50 kN, when: requested}"),
-        "",
-    ),
+    "track brake": (SCENARIO.replace("1.6 MW}", "1.6 MW}, track: {attraction: 50 kN, when: requested}"), ""),
 }
 
 
@@ -308,9 +291,7 @@ def test_no_part_waits_for_a_request_that_a_controller_cannot_make(stop_of, pyth
     message = f"keeps contract version 1 and can ask for no {part}, which the scenario has"
     with pytest.raises(ControllerError, match=message):
         run_in_process(old)
-    records = ("parameters", "wheelset_parameters", "rail")
-    block = BlockInputs([old.program], [old.config], *(np.array([getattr(old, name)]) for name in records))
-    assert message in run_block(block).failures[0]
+    assert message in run_block(BlockInputs.of([old])).failures[0]
     assert run_in_process(assemble(stop_of(python(), further, scenario))).contract == 2
 
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from uictest.rig import train_inputs
-from uictest.rig.backends.stops import compiled_rig
-from uictest.rig.coupled_cars import run_coupled
-from uictest.rig.model.couplers import coupler_energy
-from uictest.rig.model.train import run_train
-from uictest.rig.train_inputs import Coupling, assemble_train
+from uictest.rig import train_assembly
+from uictest.rig.model.train import point_position, point_speed, run_train
+from uictest.rig.simulation import run_coupled
+from uictest.rig.stops import compiled_rig
+from uictest.rig.train_assembly import Coupling, assemble_train
 from uictest.rig.train_stop import run_to_end, run_train_to_end
 
+from ..stop_bits import bits
 from .plain_numbers import run_on_numbers
 
 COUPLED = Coupling(distance=26.4)
@@ -21,8 +21,15 @@ CLEANED = (*WET, "rail.condition=wet-curves")
 SHORT = ("initial_speed=14 km/h", "until=13.5 km/h", "simulation.time_step=1 ms")
 
 
-def bits(stop):
-    return stop.measures.tobytes() + stop.wheelset_measures.tobytes()
+def coupler_energy(coupler, leading, leading_p, trailing, trailing_p):
+    """Energy that a coupler's spring has taken, J.
+
+    A force that is constant within a step works with the mean of the speeds at both ends, while positions
+    advance with the speed at the end: k/2 times the product of the stretch now and a step ago.
+    """
+    stretch = point_position(leading, leading_p, coupler) - point_position(trailing, trailing_p, coupler)
+    rate = point_speed(leading, leading_p, coupler) - point_speed(trailing, trailing_p, coupler)
+    return 0.5 * float(coupler.stiffness) * stretch * (stretch - float(leading_p.step) * rate)
 
 
 @pytest.mark.parametrize("overrides", [WET, CLEANED, ("brake.dynamic={force: 100 kN, power: 2 MW}", *DRY)])
@@ -43,7 +50,7 @@ def test_cars_that_nothing_couples_stop_as_each_alone(rig):
 
 
 def test_two_equal_cars_with_equal_noise_stop_as_one_and_do_not_pull(rig, monkeypatch):
-    monkeypatch.setattr(train_inputs, "_KEY_STEP", 0)
+    monkeypatch.setattr(train_assembly, "_KEY_STEP", 0)
     train = run_coupled([rig.case(*WET)] * 2, COUPLED)
     assert bits(train.cars[0]) == bits(train.cars[1]) == bits(rig.stop(*WET))
     assert train.couplers["largest_pull"][0] == train.couplers["largest_push"][0] == 0.0

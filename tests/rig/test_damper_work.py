@@ -8,9 +8,9 @@ from collections import Counter
 
 import numpy as np
 
-from uictest.rig.backends.stepped import SteppedTrain
 from uictest.rig.model.balance import energy_residual
-from uictest.rig.train_inputs import Coupling, assemble_train
+from uictest.rig.stepped import SteppedTrain
+from uictest.rig.train_assembly import Coupling, assemble_train
 
 WET = ("rail.condition=wet-curves", "rail.friction=0.07", "initial_speed=25 km/h")
 PARTS = ("car", "bogies", "wheelsets")

@@ -25,10 +25,6 @@ SLIPPERY = ("rail.condition=wet", "rail.friction=0.08")
 FAILING = "faults=[{at: 60 km/h, part: dynamic-brake, kind: failed}]"
 
 
-def bits(stop):
-    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
-
-
 def when_at(columns, speed):
     """Time and distance at which the train comes down to a speed in m/s, between two samples."""
     order = slice(None, None, -1)

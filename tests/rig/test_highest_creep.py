@@ -9,7 +9,7 @@ from scipy.optimize import minimize_scalar
 
 from uictest.core.physics import contact_stiffness, highest_creep_force
 from uictest.plans.scenario import RailCondition, load_part
-from uictest.rig.highest_creep import highest_creep_forces, highest_creep_law
+from uictest.rig.rail_assembly import highest_creep_forces, highest_creep_law
 
 STIFFNESS = 0.25 * 8.1e10 * math.pi * 6e-3 * 5e-3 * 4.3
 REFERENCE_LOAD = 55e3

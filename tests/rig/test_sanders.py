@@ -5,8 +5,9 @@ import pytest
 
 from uictest.plans.scenario import load
 from uictest.plans.scenario.yaml import ScenarioErrors
-from uictest.rig.coupled_cars import Coupling, run_coupled
-from uictest.rig.simulation import simulate
+from uictest.rig.simulation import Coupling, run_coupled, simulate
+
+from ..stop_bits import bits
 
 WET = ("initial_speed=80 km/h", "rail.condition=wet", "rail.friction=0.05")
 ALWAYS = "when: always, off_below: 0 km/h, delay: 0 s"
@@ -15,10 +16,6 @@ VARIABLE = f"sanders=[{{wheelset: 1, density: 7.5 g/m, rate: 60 kg/min, {ALWAYS}
 TABLE = (0, 1, 2, 3, 4, 6, 8), (0, 0.112, 0.211, 0.299, 0.378, 0.509, 0.613)
 """g/m and the share of the way that they go."""
 COUPLED = Coupling(distance=26.4)
-
-
-def bits(stop):
-    return stop.measures.tobytes() + stop.wheelset_measures.tobytes()
 
 
 def rolling(columns):

@@ -7,10 +7,11 @@ from scipy.integrate import quad
 from uictest.core.measures.catalogue.deceleration import initial_adhesion
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.lanes import run_in_lanes, run_trains_in_lanes
-from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.external.in_process import run_in_process
-from uictest.rig.train_inputs import Coupling, assemble_train
+from uictest.rig.lanes import run_in_lanes, run_trains_in_lanes
+from uictest.rig.simulation import run_coupled
+from uictest.rig.train_assembly import Coupling, assemble_train
+from uictest.rig.train_stop import stacked
 
 EMERGENCY = "brake.position=emergency"
 AT_ONCE = "delay: 0 s, rise_time: 1 ms"
@@ -206,11 +207,7 @@ def test_stops_without_one_have_neither_energy_nor_time(rig):
 def test_next_to_others_in_lanes_it_gives_the_bits_of_a_stop_alone(rig):
     variants = ((), (MAGNETS, EMERGENCY), (TO_REST, EMERGENCY, *CLEANED))
     inputs = [rig.inputs(*overrides, "initial_speed=60 km/h") for overrides in variants]
-    batch = run_in_lanes(
-        np.stack([each.parameters for each in inputs]),
-        np.stack([each.wheelset_parameters for each in inputs]),
-        np.stack([each.rail for each in inputs]),
-    )
+    batch = run_in_lanes(*stacked(inputs))
     for number, overrides in enumerate(variants):
         alone = rig.stop(*overrides, "initial_speed=60 km/h")
         assert batch.measures[number].tobytes() == alone.measures.tobytes()

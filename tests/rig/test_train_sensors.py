@@ -1,18 +1,21 @@
 """What a controller of version 2 is told of the train: a second source of speed, an accelerometer."""
 
-import shutil
-import subprocess
+import re
+from itertools import product
 
 import numpy as np
 import pytest
 
 import uictest
-from uictest.controllers import HEADER, Outputs
+from uictest import rig as simulation
+from uictest.controllers import Outputs
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.rig.assembly import assemble
-from uictest.rig.external.block import BlockInputs, run_block
-from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.in_process import BlockInputs, run_block, run_in_process
 from uictest.rig.simulation import simulate
+from uictest.running.campaign import RecordingRequest, Stop, run_stop
+
+from ..c_compiler import build_library
 
 SCENARIO = """\
 schema: uictest/scenario/1
@@ -168,12 +171,8 @@ def test_without_sensors_a_controller_gets_zeros_that_are_not_valid(case):
 
 
 def test_every_kind_of_controller_is_given_the_same_alone_and_in_lanes(case, tmp_path):
-    compiler = shutil.which("gcc")
-    if compiler is None:
-        pytest.skip("no C compiler")
     (tmp_path / "wsp.c").write_text(C)
-    built = [compiler, "-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", "-o", "libwsp.so", "wsp.c"]
-    subprocess.run(built, cwd=tmp_path, check=True)
+    build_library(tmp_path / "libwsp.so", tmp_path / "wsp.c")
     sensors = "train_speed: {delay: 250 ms}, acceleration: {}"
     python, c = (
         assemble(case(sensors, f"faults=[{LOST}, {OFFSET}]", controller=controller))
@@ -182,13 +181,7 @@ def test_every_kind_of_controller_is_given_the_same_alone_and_in_lanes(case, tmp
     alone = [run_in_process(each, 20) for each in (python, c)]
     assert alone[0].trace.train.tobytes() == alone[1].trace.train.tobytes()
     stops = [c, assemble(case("name: own")), python]
-    programs, configs = ([getattr(each, name) for each in stops] for name in ("program", "config"))
-    records = ("parameters", "wheelset_parameters", "rail")
-    run = run_block(
-        BlockInputs(
-            programs, configs, *(np.array([getattr(each, name) for each in stops]) for name in records)
-        )
-    )
+    run = run_block(BlockInputs.of(stops))
     assert run.failures == ["", "", ""]
     for place in (0, 2):
         assert run.measures[place].tobytes() == alone[0].measures.tobytes()
@@ -240,3 +233,97 @@ def test_a_controller_that_takes_its_reference_from_it_keeps_braking_when_all_sl
 def test_what_cannot_be_is_refused(case, sensors, overrides, told):
     with pytest.raises(ScenarioErrors, match=told):
         case(sensors, *overrides)
+
+
+INSTANTS = ("at: 2 s", "at: 40 km/h")
+FRICTIONS = ("0.06", "0.09", "0.12")
+WHEELSETS = (1, 2, 3, 4)
+SEEDS = (0, 1)
+KINDS = {"lost": "kind: lost", "zero": "kind: factor, value: 0 %", "stuck": "kind: stuck"}
+
+
+def stops(rig, controller, kind, instants=INSTANTS, frictions=FRICTIONS):
+    """Measures of the stop and of its wheelsets, for every instant, friction, wheelset and seed."""
+    inputs = []
+    for at, friction, wheelset in product(instants, frictions, WHEELSETS):
+        fault = f"faults=[{{{at}, wheelset: {wheelset}, part: speed-sensor, {KINDS[kind]}}}]"
+        case = rig.inputs(
+            *(f"controller={controller}", "rig.topology=four-caliper", "rail.condition=wet"),
+            *(f"rail.friction={friction}", fault),
+        )
+        for seed in SEEDS:
+            parameters = case.parameters.copy()
+            parameters["seed"] = seed
+            inputs.append(case._replace(parameters=parameters))
+    batch = simulation.run_in_lanes(*simulation.stacked(inputs))
+    yield from zip(batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray), strict=True)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_lost_sensor_locks_no_sound_wheelset(rig, kind):
+    """Nor does it capture the estimate of the train's speed, or keep its own brake released."""
+    for measures, wheelsets in stops(rig, "threshold", kind):
+        sound = wheelsets[wheelsets.faulty == 0.0]
+        assert len(sound) == 3
+        assert measures.stopped == 1.0
+        assert sound.longest_lock.max() < 1.0
+        assert measures.reference_excess < 1.0
+        assert np.nanmax(wheelsets.longest_release) < 6.0
+        assert abs(measures.air_residual) < 1e-9
+        assert abs(measures.energy_residual) < 1e-6
+
+
+def test_the_simplest_controller_follows_a_stuck_sensor(rig):
+    """It takes what it reads for the speed of the train, unless that wheelset slides deep when it sticks."""
+    found = list(stops(rig, "slip-band", "stuck", ["at: 30 km/h"], ["0.12"]))
+    assert max(measures.reference_excess for measures, _ in found) > 3.0
+
+
+def judged(rig, *overrides, **ranges):
+    """A judged stop whose sensors of a kind have a range."""
+    sensors = [f"rig.sensors.{kind}.range={limit}" for kind, limit in ranges.items()]
+    return run_stop(
+        Stop(rig.case("initial_speed=60 km/h", *overrides, *sensors)), RecordingRequest("all", 0.01)
+    ).case_run
+
+
+def check(run, name):
+    return next(each for each in run.result.criteria if each.id == name)
+
+
+@pytest.mark.parametrize(
+    ("topology", "named"), [("one-caliper", ["1"]), ("four-caliper", ["1", "2", "3", "4"])]
+)
+def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(rig, topology, named):
+    """The train brakes with what they show; the time is that of the recording."""
+    run = judged(rig, f"rig.topology={topology}", loadcell="12 kN")
+    verdict = check(run, "loadcells-in-range")
+    assert (run.result.outcome, verdict.status) == ("invalid", "fail")
+    assert [n for n in "1234" if f"loadcells of wheelset {n} limited to 12 kN" in verdict.reason] == named
+    force = run.recording["clamping_force_1"]
+    first = float(run.recording["time"][np.argmax(force >= 11.99e3)])
+    [told] = re.findall(r"the first by ([0-9.]+) s", verdict.reason)
+    assert float(told) == pytest.approx(first, abs=0.02)
+    limited = 0.01 * float(np.sum(force >= 11.99e3)) * len(named)
+    assert verdict.value == pytest.approx(limited, abs=0.05 * len(named))
+    assert check(run, "pressure-sensors-in-range").status == "pass"
+
+
+def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(rig):
+    run = judged(rig, pressure="3 bar")
+    reason = check(run, "pressure-sensors-in-range").reason
+    assert run.result.outcome == "invalid"
+    for place in ("wheelset 1", "wheelset 4", "the brake line"):
+        assert f"pressure sensor of {place} limited to 3 bar for" in reason
+
+
+def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(rig):
+    """One time is kept for all sensors; here it is not that of the loadcells, which follow."""
+    run = judged(rig, loadcell="14 kN", pressure="1 bar")
+    for name in ("loadcells-in-range", "pressure-sensors-in-range"):
+        assert "; the first of any kind by " in check(run, name).reason
+
+
+def test_a_stop_within_the_ranges_has_its_checks_hold(rig):
+    run = judged(rig)
+    assert {each.status for each in run.result.criteria if each.layer == "rig"} == {"pass"}

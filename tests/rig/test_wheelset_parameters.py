@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from uictest.core.physics.valves import VENT
+from uictest.core.physics.air import VENT
 from uictest.core.record import fields_of
 from uictest.plans.scenario import WHEELSET_NUMBERS, wheelset_value
-from uictest.plans.scenario.parts.wheelsets import REGULAR
+from uictest.plans.scenario.parts.vehicle import REGULAR
 from uictest.rig.assembly import assemble
 from uictest.rig.model.cycle import command_valves
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
+from uictest.rig.model.parameters import WHEELSET_PARAMETERS, WheelsetParameters
 
 from .plain_numbers import step
 

@@ -9,7 +9,7 @@ import uictest
 from uictest import report, runs
 from uictest.core.units import BAR, KILOMETRE_PER_HOUR
 from uictest.plans.scenario import load
-from uictest.runs.drawing import with_traces
+from uictest.runs.batch import with_traces
 
 STOP = """\
 schema: uictest/scenario/1

@@ -9,7 +9,7 @@ from uictest.plans.scenario import PASS
 from uictest.report import DRAWN
 from uictest.running import campaign
 from uictest.running.campaign import CaseRun, RecordingRequest
-from uictest.runs.drawing import TraceCollection
+from uictest.runs.batch import TraceCollection
 
 RECORDING = Recording(
     {"time": np.array([0.0, 1.0]), "speed": np.array([2.0, 1.0])}, {"time": "s", "speed": "m/s"}

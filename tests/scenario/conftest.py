@@ -1,9 +1,8 @@
 """A folder to write scenario files into, which is also the working folder."""
 
 import io
+import re
 import zipfile
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -12,26 +11,18 @@ from uictest.plans.scenario import ScenarioErrors, load
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n"
 """The least that a scenario says; three lines, so that what a test adds starts in line 4."""
 
-Write = Callable[..., Path]
+
+def refusals(table):
+    """The rows of a table: what a file says and, below it after arrows, what is told of its error."""
+    found = re.findall(r"((?:(?!->).*\n)+)((?:-> .*\n)+)", table)
+    return [
+        (says.removesuffix("\n"), *map(str.strip, re.split(r"-> |\|", error)[1:])) for says, error in found
+    ]
 
 
 @pytest.fixture
 def head():
     return HEAD
-
-
-@pytest.fixture
-def write(tmp_path, monkeypatch):
-    """Write a file into the working folder; returns its relative path."""
-    monkeypatch.chdir(tmp_path)
-
-    def _write(name, content):
-        path = Path(name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return _write
 
 
 @pytest.fixture

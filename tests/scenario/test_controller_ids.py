@@ -1,8 +1,6 @@
 """Ids name a controller by the name of its part; two programs of one name are told apart."""
 
-from collections.abc import Callable
 from hashlib import sha256
-from pathlib import Path
 
 import pytest
 
@@ -10,7 +8,6 @@ from uictest.plans.scenario import load
 from uictest.plans.series import load_series
 from uictest.plans.sweeps import load_sweep
 
-Write = Callable[..., Path]
 BOTH = "matrix: {controller: [v23/wsp.yaml, v24/wsp.yaml]}\n"
 
 
@@ -18,10 +15,7 @@ def _part(write, folder, program, name="name: wsp\n", more=""):
     """Write a controller; return the digits of its program."""
     program += "class Wsp: ...\n"
     write(f"{folder}/wsp.py", program.encode())
-    write(
-        f"{folder}/wsp.yaml",
-        f"schema: uictest/controller/1\n{name}python: wsp.py\nclass: Wsp\n{more}",
-    )
+    write(f"{folder}/wsp.yaml", f"schema: uictest/controller/1\n{name}python: wsp.py\nclass: Wsp\n{more}")
     return sha256(program.encode()).hexdigest()[:8]
 
 

@@ -9,7 +9,9 @@ import pytest
 
 from uictest.controllers import shown_version
 from uictest.plans.scenario import fmu_description, load, values_in
-from uictest.plans.scenario.program_files import version_in
+from uictest.plans.scenario.programs import version_in
+
+from .conftest import refusals
 
 PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
 
@@ -24,14 +26,6 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
         ("{python: wsp.py}", "controller.class", "missing key 'class'", "Name of the class in that file."),
         ("{python: wsp.py, class: Wps}", "controller.class", "wsp.py has no class 'Wps'", "mean 'Wsp'?"),
         ("{python: wsp.py, clss: Wsp}", "controller.clss", "unknown key 'clss'", "did you mean 'class'?"),
-        (
-            "{python: wsp.py, class: Wsp, connect: 'tcp://127.0.0.1:1'}",
-            *("controller.connect", "by 'python' and by 'connect'", "keep one of them"),
-        ),
-        (
-            "{extends: threshold, python: wsp.py, class: Wsp}",
-            *("controller.python", "by 'algorithm' and by 'python'", "does not extend one that is built in"),
-        ),
         ("{python: wps.py, class: Wsp}", "controller.python", "no such file: 'wps.py'", "'wsp.py'?"),
         ("{python: folders.py, class: Wsp}", "controller.python", "no such file", "mend the path"),
         ("{library: libabc.so}", "controller.library", "no such file: 'libabc.so'", "build it first"),
@@ -40,26 +34,24 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
         ("{connect: '127.0.0.1:5025'}", "controller.connect", "is not an address", "tcp://HOST:PORT"),
         ("{connect: 'tcp://rig:70000'}", "controller.connect", "no port 70000", "from 1 to 65535"),
         ("{python: [wsp.py], class: Wsp}", "controller.python", "expected the path of a file", "relative"),
-        (
-            "{python: wsp.py, class: Wsp, time_limit: 5}",
-            *("controller.time_limit", "has no unit", "`5 s` or `5 ms`"),
-        ),
-        (
-            "{python: wsp.py, class: Wsp, parameters: [1, 2]}",
-            *("controller.parameters", "expected a mapping, found a list", "Handed to the controller"),
-        ),
-        (
-            "{python: wsp.py, class: Wsp, parameters: {a: }}",
-            *("controller.parameters.a", "expected a number", "leave the parameter out"),
-        ),
-        (
-            "{python: wsp.py, class: Wsp, parameters: {a: [1e999]}}",
-            *("controller.parameters.a", "JSON has no number inf", "write a finite number"),
-        ),
         ("wsp.py", "controller", "no controller 'wsp.py'", "write `{python: wsp.py, class: NAME}`"),
         ("lib/libwsp.so", "controller", "no controller", "write `{library: lib/libwsp.so}`"),
         ("wsp.fmu", "controller", "no controller", "write `{fmu: wsp.fmu}`"),
         ("'tcp://rig:5025'", "controller", "no controller", 'write `{connect: "tcp://rig:5025"}`'),
+        *refusals("""\
+{python: wsp.py, class: Wsp, connect: 'tcp://127.0.0.1:1'}
+-> controller.connect | by 'python' and by 'connect' | keep one of them
+{extends: threshold, python: wsp.py, class: Wsp}
+-> controller.python | by 'algorithm' and by 'python' | does not extend one that is built in
+{python: wsp.py, class: Wsp, time_limit: 5}
+-> controller.time_limit | has no unit | `5 s` or `5 ms`
+{python: wsp.py, class: Wsp, parameters: [1, 2]}
+-> controller.parameters | expected a mapping, found a list | Handed to the controller
+{python: wsp.py, class: Wsp, parameters: {a: }}
+-> controller.parameters.a | expected a number | leave the parameter out
+{python: wsp.py, class: Wsp, parameters: {a: [1e999]}}
+-> controller.parameters.a | JSON has no number inf | write a finite number
+"""),
     ],
 )
 def test_what_to_write_instead(refused, write, head, controller, key, message, hint):
@@ -213,13 +205,13 @@ def test_a_file_of_several_cases_is_read_once(write, head, monkeypatch):
 
 def test_another_build_is_a_change_against_the_part_that_is_extended(write, head):
     """The part at the root of `extends` has the SHA-256 of its own file."""
-    from uictest.judging.evaluation import EffectiveParts
+    from uictest.judging.evaluation import effective_parts
 
     write("one.py", PROGRAM)
     write("two.py", PROGRAM + b"# another\n")
     write("ours.yaml", "schema: uictest/controller/1\nname: ours\npython: one.py\nclass: Wsp\n")
     (case,) = load([write("stop.yaml", f"{head}controller: {{extends: ours.yaml, python: two.py}}\n")])
-    part = EffectiveParts().of(case.scenario)["controller"]
+    part = effective_parts(case.scenario)["controller"]
     assert {each.key for each in part.changed} == {"controller.python", "controller.sha256"}
     changed = {each.key: each.library_value for each in part.changed}
     assert changed["controller.sha256"] == sha256(PROGRAM).hexdigest()
@@ -236,9 +228,7 @@ def test_a_description_whose_reader_does_not_end_well_states_nothing(
     """It costs some time, never the program: who loads the FMU says why."""
     start = fmu_description.reading_process
     monkeypatch.setattr(
-        fmu_description,
-        "reading_process",
-        lambda _, __, folder: start("timeit", arguments, folder),
+        fmu_description, "reading_process", lambda _, __, folder: start("timeit", arguments, folder)
     )
     monkeypatch.setattr(fmu_description, "_SECONDS", 0.5 if arguments is HANGS else 60.0)
     write("wsp.fmu", fmu('<fmiModelDescription version="1.4"/>'))

@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from uictest.judging.evaluation import EffectiveParts
+from uictest.judging.evaluation import effective_parts
 from uictest.plans.scenario import ScenarioErrors, load_controller, with_parameters
 
 PYTHON = """
@@ -108,7 +108,7 @@ def test_defaults_are_handed_over_and_shown(loaded, head):
         program = case.scenario.controller.program
         assert program is not None
         assert program.parameters == '{"upper_slide": 0.15, "cycles": 4, "mode": "fast"}'
-        rows = {each.key: each for each in EffectiveParts().of(case.scenario)["controller"].parameters}
+        rows = {each.key: each for each in effective_parts(case.scenario)["controller"].parameters}
         shown = {
             key.rpartition(".")[2]: (row.value, row.unit, row.mark)
             for key, row in rows.items()

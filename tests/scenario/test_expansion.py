@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.plans.scenario import ScenarioErrors, expansion
+from uictest.plans.scenario.case import case_id, short_keys
 from uictest.plans.scenario.expansion import expand
-from uictest.plans.scenario.identifiers import case_id, short_keys
-from uictest.plans.scenario.yaml.parsing import parse
-from uictest.plans.scenario.yaml.tree import Document, Map, as_written
+from uictest.plans.scenario.yaml.diagnostics import Document
+from uictest.plans.scenario.yaml.tree import Map, as_written, parse
 
 
 def ids(cases):

@@ -47,10 +47,6 @@ def test_what_a_scenario_expects_is_read_and_written_as_it_was(loaded, text, exp
     ("text", "message", "hint"),
     [
         ("»{fail: [locked-wheel]}", "'locked-wheel' is not there", "did you mean 'locked-wheels'?"),
-        ("»{fail: [initial-adhesion]}", "'initial-adhesion' is one of validity",
-         "accepted: distance-over-reference, locked-wheels, "),
-        ("»{invalid: [locked-wheels]}", "of validity; 'locked-wheels' is one of requirement",
-         "accepted: braking-distance, initial-adhesion, minimum-slide"),
         ("»{fail: []}", "`fail` lists ids of criteria of requirement, at least", "`{fail: [locked-wheels]}`"),
         ("»{fail: locked-wheels}", "`fail` lists ids of criteria of", "`{fail: [locked-wheels]}`"),
         ("»{invalid: [3]}", "`invalid` lists ids of criteria of validity", "`{fail: [locked-wheels]}`"),
@@ -58,8 +54,10 @@ def test_what_a_scenario_expects_is_read_and_written_as_it_was(loaded, text, exp
         ("»{}", "an empty mapping names no criterion", "`{fail: [locked-wheels]}`"),
         ("»[fail]", "unknown value", "pass, fail, invalid, skipped"),
         ("»error", "unknown value 'error', expected one of pass, fail, invalid, skipped", "write one of"),
+        ("»{fail: [initial-adhesion]}", "is one of validity", "accepted: distance-over-reference, locked"),
+        ("»{invalid: [locked-wheels]}", "is one of requirement", "braking-distance, initial-adhesion, min"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_expected_is_refused_at_its_place(refused, text, message, hint):
     content = f"{SLIP}expect: {text}\n"
     line = content[: content.index("»")].count("\n") + 1

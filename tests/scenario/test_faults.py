@@ -2,7 +2,7 @@
 
 import pytest
 
-from uictest.judging.evaluation.effective_parts import EffectiveParts
+from uictest.judging.evaluation import effective_parts
 
 SILENT = "part: controller, kind: silent, "
 ON_2 = "at: 3 s, wheelset: 2, "
@@ -84,9 +84,9 @@ def test_a_key_beyond_the_list_names_what_there_is(head, refused):
 def test_effective_parameters_list_the_faults(head, loaded):
     [with_fault] = loaded(f"{head}faults: [{STUCK}]\n")
     [without] = loaded(head)
-    keys = [each.key for each in EffectiveParts().of(with_fault.scenario)["scenario"].parameters]
+    keys = [each.key for each in effective_parts(with_fault.scenario)["scenario"].parameters]
     assert [key for key in keys if key.startswith("faults")] == [
         f"faults.0.{name}" for name in ("at", "wheelset", "part", "kind")
     ]
-    own = EffectiveParts().of(without.scenario)["scenario"].parameters
+    own = effective_parts(without.scenario)["scenario"].parameters
     assert not any(each.key.startswith("faults") for each in own)

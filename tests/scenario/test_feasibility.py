@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.scenario.feasibility import ValveConductances, limit_of_air, limit_of_vehicle
+from uictest.plans.scenario.feasibility import limit_of_air, limit_of_vehicle
 from uictest.rig import simulate
 
 STEP = 0.5e-3
@@ -18,7 +18,7 @@ def head(head):
 def air_limit(case):
     system = case.scenario.brake.system
     smallest = min(float(system.tank.volume), case.scenario.tank_volume_with_caliper)
-    valve = ValveConductances(system.wsp_valve.fill_conductance, system.wsp_valve.vent_conductance)
+    valve = system.wsp_valve.fill_conductance, system.wsp_valve.vent_conductance
     return limit_of_air(system, case.scenario.rig.caliper, smallest, [valve] * 4)
 
 

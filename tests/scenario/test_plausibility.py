@@ -3,21 +3,18 @@
 import pytest
 
 from uictest.plans import library
-from uictest.plans.scenario import car_figures, load, plausible_spans
+from uictest.plans.scenario import car_figures, plausible_spans
 
-SCENARIO = "schema: uictest/scenario/1\nname: train\ninitial_speed: 120 km/h\n"
 DISC = "brake.system.disc"
 SYSTEM = "brake.system"
+LOADCELL = "rig.sensors.loadcell"
 NONSENSE = {
     "axle-load": [("vehicle.body.mass=3 t", 3.9075), ("vehicle.body.mass=150 t", 40.6575)],
     "wheel-radius": [("vehicle.wheelset.radius=860 mm", 860.0), ("vehicle.wheelset.radius=0.29 m", 290.0)],
     "braked-weight-percentage": [(f"{DISC}.pad_friction=0.9", 368.0), (f"{DISC}.pad_friction=0.09", 27.7)],
     "adhesion-demand": [(f"{DISC}.pad_friction=0.9", 0.3064)],
     "wheel-inertia": [("vehicle.wheelset.rotational_inertia=61 kg m2", 0.1783)],
-    "clamping-force": [
-        ("rig.sensors.loadcell.range=10 kN", 139.7),
-        ("rig.sensors.loadcell.range=200 kN", 6.98),
-    ],
+    "clamping-force": [(f"{LOADCELL}.range=10 kN", 139.7), (f"{LOADCELL}.range=200 kN", 6.98)],
     "reservoir": [(f"{SYSTEM}.reservoir.volume=10 L", 0.7164)],
     "filling-time": [
         (f"{SYSTEM}.positions.R.fill_time=0.1 s", 0.2963),
@@ -48,15 +45,9 @@ TRAM = (
 """A light rail car of 27.6 t on wheels of 600 mm, which full service slows by 1.3 m/s2; chosen."""
 
 
-@pytest.fixture(name="figures")
-def _figures(tmp_path):
-    path = tmp_path / "train.yaml"
-    path.write_text(SCENARIO)
-
-    def of(*overrides):
-        return car_figures(load([path], list(overrides))[0].scenario)
-
-    return of
+@pytest.fixture
+def figures(case):
+    return lambda *overrides: car_figures(case(*overrides).scenario)
 
 
 MISTAKES = [(name, *each) for name, mistakes in NONSENSE.items() for each in mistakes]

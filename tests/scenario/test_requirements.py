@@ -3,13 +3,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.plans.scenario import (
-    in_order_of_ids,
-    load,
-    named_requirements,
-    read_requirement_list,
-    values_in,
-)
+from uictest.plans.scenario import in_order_of_ids, load, named_requirements, read_requirement_list, values_in
 from uictest.plans.scenario.yaml import ScenarioErrors
 
 CRITERIA = """\

@@ -9,6 +9,9 @@ PROFILE = """criteria:
       layer: {layer}
       {text}
 """
+DISTANCE = "measure: braking_distance\n"
+LOCK = "measure: longest_lock\nwheelsets: all\n"
+SERIES = "scope: series\nmeasure: "
 
 
 def written(text, layer="requirement"):
@@ -53,41 +56,17 @@ def test_a_criterion_of_stops_needs_no_series(criterion):
 @pytest.mark.parametrize(
     ("text", "message", "hint"),
     [
-        ("measure: braking_distance\nupper: 125 of the dry stop", "'125' has no unit", "`125 %`"),
-        (
-            "measure: braking_distance\nupper: 125 % of dry",
-            "is no share of the dry stop",
-            "`125 % of the dry stop`",
-        ),
-        ("measure: braking_distance\nupper: 125 m of the dry stop", "unknown unit 'm'", "%"),
-        ("measure: braking_distance\nupper: 0 % of the dry stop", "not above zero", "125 %"),
-        (
-            "measure: braking_distance\nlower: 400 m\nupper: 125 % of the dry stop",
-            "'lower' is no share of the dry stop",
-            "write two criteria",
-        ),
-        (
-            "measure: longest_lock\nwheelsets: all\nupper: 125 % of the dry stop",
-            "'longest_lock' has no value of the dry stop",
-            "braking_distance",
-        ),
-        (
-            "scope: series\nmeasure: passing_share\nlower: 90 % of the dry stop",
-            "'passing_share' has no value of the dry stop",
-            "median_braking_distance",
-        ),
+        (DISTANCE + "upper: 125 of the dry stop", "'125' has no unit", "`125 %`"),
+        (DISTANCE + "upper: 125 % of dry", "is no share of the dry stop", "`125 % of the dry stop`"),
+        (DISTANCE + "upper: 125 m of the dry stop", "unknown unit 'm'", "%"),
+        (DISTANCE + "upper: 0 % of the dry stop", "not above zero", "125 %"),
+        (DISTANCE + "lower: 400 m\nupper: 9 % of the dry stop", "'lower' is no share", "write two criteria"),
+        (LOCK + "upper: 125 % of the dry stop", "'longest_lock' has no value of", "braking_distance"),
+        (SERIES + "passing_share\nlower: 90 % of the dry stop", "has no value", "median_braking_distance"),
         ("measure: k_wet\nlower: 0.8", "'k_wet' is a measure of a series", "scope: series"),
-        (
-            "scope: series\nmeasure: braking_distance\nupper: 500 m",
-            "'braking_distance' is a measure of a stop",
-            "scope: stop",
-        ),
-        ("scope: series\nmeasure: k_wett\nlower: 0.8", "unknown measure 'k_wett'", "'k_wet'"),
-        (
-            "scope: series\nmeasure: k_wet\nlower: 0.8\nwheelsets: all",
-            "'wheelsets' belongs to a criterion of stops",
-            "leave it out",
-        ),
+        (SERIES + "braking_distance\nupper: 500 m", "is a measure of a stop", "scope: stop"),
+        (SERIES + "k_wett\nlower: 0.8", "unknown measure 'k_wett'", "'k_wet'"),
+        (SERIES + "k_wet\nlower: 0.8\nwheelsets: all", "belongs to a criterion of stops", "leave it out"),
         ("scope: train\nmeasure: k_wet\nlower: 0.8", "expected one of stop, series", ""),
     ],
 )

@@ -6,6 +6,8 @@ import pytest
 
 from uictest.plans.scenario import ScenarioErrors, load
 
+from .conftest import refusals
+
 TRAIN = """
 schema: uictest/scenario/1
 name: short
@@ -15,14 +17,9 @@ rail: {condition: wet, friction: 0.07}
 
 
 @pytest.fixture
-def cases(tmp_path):
+def cases(write):
     """Write a scenario and return its cases."""
-
-    def write(more, *overrides, beside=TRAIN):
-        (tmp_path / "train.yaml").write_text(beside + more, "utf-8")
-        return load([tmp_path / "train.yaml"], overrides)
-
-    return write
+    return lambda more, *overrides, beside=TRAIN: load([write("train.yaml", beside + more)], overrides)
 
 
 def test_every_car_is_a_case_with_what_it_has_of_its_own(cases):
@@ -63,8 +60,8 @@ def test_lists_and_values_of_the_command_line_reach_single_cars(cases):
     ]
 
 
-def test_a_train_takes_the_place_of_the_vehicle_of_a_parent(tmp_path, cases):
-    (tmp_path / "parent.yaml").write_text(TRAIN.replace("short", "parent") + "vehicle: crh380a\n", "utf-8")
+def test_a_train_takes_the_place_of_the_vehicle_of_a_parent(write, cases):
+    write("parent.yaml", TRAIN.replace("short", "parent") + "vehicle: crh380a\n")
     child = "schema: uictest/scenario/1\nname: child\nextends: parent.yaml\n"
     first, _ = cases("train: [{count: 2}]\n", beside=child)
     assert first.scenario.vehicle.name == "intercity-180"
@@ -78,74 +75,70 @@ def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
     assert second.train.number == 2
 
 
-@pytest.mark.parametrize(
-    ("more", "expected"),
-    [
-        (
-            "vehicle: crh380a\ntrain: [{count: 2}]\n",
-            ["train.yaml:6:1: vehicle: the cars of a train have vehicles of their own"],
-        ),
-        ("train: []\n", ["6:8: train: expected a list of cars, found an empty list"]),
-        ("train: crh380a\n", ["6:8: train: expected a list of cars, found a text"]),
-        ("train: [crh380a]\n", ["6:9: train.0: expected a mapping, found a text"]),
-        ("train: [{count: 0}]\n", ["6:17: train.0.count: expected a whole number from 1 to 32"]),
-        ("train: [{count: true}]\n", ["train.0.count: expected a whole number"]),
-        ("train: [{count: 2.5}]\n", ["train.0.count: expected a whole number"]),
-        ("train: [{count: 20}, {count: 13}]\n", ["6:8: train: 33 cars; a train has at most 32"]),
-        (
-            "train: [{vehicel: crh380a}]\n",
-            ["6:10: train.0.vehicel: unknown key 'vehicel'", "did you mean 'vehicle'?"],
-        ),
-        (
-            "train:\n  - {seed: 3, rail: {friction: 0.1}}\n  - {simulation: {time_step: 1 ms}}\n",
-            [
-                "7:6: train.0.seed: a train has one seed",
-                "write seed beside `train`; a car has vehicle, count, brake, rig, controller, sanders,",
-                "7:15: train.0.rail: a train has one rail",
-                "8:6: train.1.simulation: a train has one simulation",
-            ],
-        ),
-        (
-            "train: [{brake: {transmission: wire}}]\n",
-            ["6:18: train.0.brake.transmission: a train has one transmission"],
-        ),
-        (
-            "train: [{vehicle: crh38a}, {brake: {command: 120 %}}]\n",
-            [
-                "6:19: train.0.vehicle: no vehicle 'crh38a' in the library",
-                "6:46: train.1.brake.command: 120 % is out of range",
-            ],
-        ),
-        (
-            "train: [{}, {faults: [{part: speed-sensor}]}]\nmatrix: {train.1.brake.command: [70 %, 7 m]}\n",
-            ["6:23: train.1.faults.0.at: missing key 'at'", "7:40: train.1.brake.command: unknown unit 'm'"],
-        ),
-        ("train: [{}, {}]\nbrake: {command: 120 %}\n", ["7:18: brake.command: 120 % is out of range"]),
-        ("coupler: {damping: 1 MN s/m}\n", ["6:1: coupler: only a train has it"]),
-        ("brake: {transmission: wire}\n", ["6:9: brake.transmission: only a train has it"]),
-        (
-            "train: [{}, {}]\ncoupler: {stiffness: 0 N/m}\n",
-            ["7:22: coupler.stiffness: 0 N/m is out of range: it must be at least 100 kN/m"],
-        ),
-        ("train: [{}]\ncoupler: {slack: 2 mm}\n", ["7:11: coupler.slack: unknown key 'slack'"]),
-        (
-            "train: [{count: 2}]\nbrake: {transmission: {pipe: 250}}\n",
-            ["7:30: brake.transmission.pipe: '250' has no unit"],
-        ),
-        (
-            "train: [{}, {controller: {extends: slip-band, cycle_time: 5 ms}}]\n",
-            ["6:26: train.1.controller: a controller cycle of 5 ms; that of the first car is 10 ms"],
-        ),
-        (
-            "train: [{count: 3}]\ncoupler: {distance: 20 m}\n",
-            ["7:21: coupler.distance: 20 m let the wheels of neighbouring cars overlap", "more than 21.36 m"],
-        ),
-        (
-            "train: [{vehicle: crh380a}, {}]\ncoupler: {damping: 10 MN s/m}\nsimulation: {time_step: 1 ms}\n",
-            ["7:10: coupler: too stiff or too much damped for a body of 32.37 t with a step of 1 ms"],
-        ),
-    ],
-)
+NO_TRAINS = refusals("""\
+vehicle: crh380a
+train: [{count: 2}]
+-> train.yaml:6:1: vehicle: the cars of a train have vehicles of their own
+train: []
+-> 6:8: train: expected a list of cars, found an empty list
+train: crh380a
+-> 6:8: train: expected a list of cars, found a text
+train: [crh380a]
+-> 6:9: train.0: expected a mapping, found a text
+train: [{count: 0}]
+-> 6:17: train.0.count: expected a whole number from 1 to 32
+train: [{count: true}]
+-> train.0.count: expected a whole number
+train: [{count: 2.5}]
+-> train.0.count: expected a whole number
+train: [{count: 20}, {count: 13}]
+-> 6:8: train: 33 cars; a train has at most 32
+train: [{vehicel: crh380a}]
+-> 6:10: train.0.vehicel: unknown key 'vehicel' | did you mean 'vehicle'?
+train:
+  - {seed: 3, rail: {friction: 0.1}}
+  - {simulation: {time_step: 1 ms}}
+-> 7:6: train.0.seed: a train has one seed
+-> write seed beside `train`; a car has vehicle, count, brake, rig, controller, sanders,
+-> 7:15: train.0.rail: a train has one rail
+-> 8:6: train.1.simulation: a train has one simulation
+train: [{brake: {transmission: wire}}]
+-> 6:18: train.0.brake.transmission: a train has one transmission
+train: [{vehicle: crh38a}, {brake: {command: 120 %}}]
+-> 6:19: train.0.vehicle: no vehicle 'crh38a' in the library
+-> 6:46: train.1.brake.command: 120 % is out of range
+train: [{}, {faults: [{part: speed-sensor}]}]
+matrix: {train.1.brake.command: [70 %, 7 m]}
+-> 6:23: train.1.faults.0.at: missing key 'at' | 7:40: train.1.brake.command: unknown unit 'm'
+train: [{}, {}]
+brake: {command: 120 %}
+-> 7:18: brake.command: 120 % is out of range
+coupler: {damping: 1 MN s/m}
+-> 6:1: coupler: only a train has it
+brake: {transmission: wire}
+-> 6:9: brake.transmission: only a train has it
+train: [{}, {}]
+coupler: {stiffness: 0 N/m}
+-> 7:22: coupler.stiffness: 0 N/m is out of range: it must be at least 100 kN/m
+train: [{}]
+coupler: {slack: 2 mm}
+-> 7:11: coupler.slack: unknown key 'slack'
+train: [{count: 2}]
+brake: {transmission: {pipe: 250}}
+-> 7:30: brake.transmission.pipe: '250' has no unit
+train: [{}, {controller: {extends: slip-band, cycle_time: 5 ms}}]
+-> 6:26: train.1.controller: a controller cycle of 5 ms; that of the first car is 10 ms
+train: [{count: 3}]
+coupler: {distance: 20 m}
+-> 7:21: coupler.distance: 20 m let the wheels of neighbouring cars overlap | more than 21.36 m
+train: [{vehicle: crh380a}, {}]
+coupler: {damping: 10 MN s/m}
+simulation: {time_step: 1 ms}
+-> 7:10: coupler: too stiff or too much damped for a body of 32.37 t with a step of 1 ms
+""")
+
+
+@pytest.mark.parametrize(("more", "expected"), [(more, expected) for more, *expected in NO_TRAINS])
 def test_what_is_no_train_is_said_at_its_place(cases, more, expected):
     with pytest.raises(ScenarioErrors) as errors:
         cases(more)
@@ -153,10 +146,10 @@ def test_what_is_no_train_is_said_at_its_place(cases, more, expected):
     assert [each for each in expected if each not in text] == []
 
 
-def test_every_car_names_what_all_of_its_train_was_read_from(tmp_path, cases):
+def test_every_car_names_what_all_of_its_train_was_read_from(write, cases):
     vehicle = "schema: uictest/vehicle/1\nname: {name}\nextends: crh380a\n"
     for name in ("lead", "last"):
-        (tmp_path / f"{name}.yaml").write_text(vehicle.format(name=name), "utf-8")
+        write(f"{name}.yaml", vehicle.format(name=name))
     files = [list(case.inputs) for case in cases("train: [{vehicle: lead.yaml}, {vehicle: last.yaml}]\n")]
     assert files[0] == files[1]
     assert {name.rpartition("/")[2] for name in files[0]} >= {"train.yaml", "lead.yaml", "last.yaml"}
@@ -165,12 +158,10 @@ def test_every_car_names_what_all_of_its_train_was_read_from(tmp_path, cases):
 OUTSIDE = "{controller: {python: %s, class: W}}"
 
 
-def test_programs_of_a_train_lie_in_one_folder(tmp_path, cases):
+def test_programs_of_a_train_lie_in_one_folder(write, cases):
     """A process holds one module of a name: what lies beside one file would serve the other."""
     for name in ("wsp.py", "twin.py", "other/wsp.py"):
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text("class W:\n    def step(self, inputs, outputs): ...\n", "utf-8")
+        write(name, "class W:\n    def step(self, inputs, outputs): ...\n")
     cars = [OUTSIDE % name for name in ("wsp.py", "twin.py", "wsp.py")]
     loaded = cases(f"train: [{{}}, {', '.join(cars)}]\n")
     assert [case.scenario.controller.program is None for case in loaded] == [True, False, False, False]
@@ -187,8 +178,8 @@ def test_a_program_at_a_socket_serves_one_car(cases):
         cases(twice)
 
 
-def test_beside_a_program_at_a_socket_no_folder_is_asked_for(tmp_path, cases):
-    (tmp_path / "wsp.py").write_text("class W: ...\n", "utf-8")
+def test_beside_a_program_at_a_socket_no_folder_is_asked_for(write, cases):
+    write("wsp.py", "class W: ...\n")
     both = [OUTSIDE % "wsp.py", "{controller: {connect: 'tcp://127.0.0.1:1'}}"]
     for cars in (both, both[::-1]):
         with pytest.raises(ScenarioErrors, match="where a car has a program at a socket"):

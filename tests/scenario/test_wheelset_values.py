@@ -5,7 +5,7 @@ from operator import attrgetter
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors, wheelset_value
-from uictest.plans.scenario.parts.wheelsets import REGULAR
+from uictest.plans.scenario.parts.vehicle import REGULAR
 
 FOUR_CALIPERS = "rig.topology=four-caliper"
 

@@ -7,17 +7,18 @@ import pytest
 
 import uictest
 from uictest import selftest
-from uictest.selftest import stored_answers
-from uictest.selftest.known_stops import data_digests, stored_data_digests
+from uictest.selftest import known_stops
+from uictest.selftest.known_stops import data_digests
 
 PACKAGE = Path(uictest.__file__).parent
+STORED = known_stops._stored()["data"]
 CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"
 
 
 @pytest.fixture
 def package(tmp_path):
     """A copy of the shipped data, what a wheel adds, and what Python and editors leave beside them."""
-    for name in stored_data_digests():
+    for name in STORED:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(PACKAGE / name, tmp_path / name)
     left = tmp_path / "plans/library" / "__pycache__" / "__init__.cpython-311.pyc"
@@ -30,13 +31,13 @@ def package(tmp_path):
 
 
 def finding(monkeypatch, package, stops):
-    monkeypatch.setattr(stored_answers, "data_digests", lambda: data_digests(package))
+    monkeypatch.setattr(known_stops, "data_digests", lambda: data_digests(package))
     check = next(each for each in selftest.all_checks(stops) if each.id == "shipped-data")
     return selftest.examine(stops, [check]).findings[0]
 
 
 def test_the_data_of_this_version_pass(monkeypatch, package, stops):
-    assert CRITERIA in stored_data_digests()
+    assert CRITERIA in STORED
     assert finding(monkeypatch, package, stops).status == "pass"
 
 

@@ -16,8 +16,7 @@ from hypothesis import given, strategies as st
 from uictest import selftest
 from uictest.core import physics, user_cache
 from uictest.selftest import examination, known_stops
-from uictest.selftest.known_stops import Answer, Check, NotCheckedError
-from uictest.selftest.stored_answers import answer_of
+from uictest.selftest.known_stops import Answer, Check, NotCheckedError, answer_of
 
 STORED = json.loads(selftest.REFERENCE.read_text("utf-8"))
 NUMBERS = {
@@ -77,7 +76,7 @@ def test_a_number_that_is_missing_or_new_is_found():
 
 
 def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(stops, monkeypatch):
-    stored = dict(known_stops.stored_numbers("dry-120"))
+    stored = dict(known_stops._stored()["stops"]["dry-120"]["numbers"])
     distance = float(stored["braking_distance"])
     stored["braking_distance"] = repr(float(np.nextafter(distance, 0.0)))
     content = {

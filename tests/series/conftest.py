@@ -1,8 +1,6 @@
 """Series made of stops whose results are written down, and files in a folder of their own."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -12,27 +10,18 @@ from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats, Verdic
 from uictest.plans import series as series_plans
 from uictest.plans.scenario import PASS
 
-Write = Callable[[str, str], Path]
 SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 120 km/h\n{text}"
 SERIES = "schema: uictest/series/1\nname: campaign\n{text}"
 PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
 
 
 @pytest.fixture
-def write(tmp_path, monkeypatch):
+def write(write):
     """Write a file into the working folder, which holds dry.yaml and wet.yaml."""
-    monkeypatch.chdir(tmp_path)
-
-    def to(name, text):
-        path = Path(name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, "utf-8")
-        return path
-
-    to("dry.yaml", SCENARIO.format(name="dry", text="rail: {condition: dry}\ncriteria: uictest-stop\n"))
+    write("dry.yaml", SCENARIO.format(name="dry", text="rail: {condition: dry}\ncriteria: uictest-stop\n"))
     wet = "rail: {condition: wet, friction: 0.08}\ncriteria: uictest-stop\n"
-    to("wet.yaml", SCENARIO.format(name="wet", text=wet))
-    return to
+    write("wet.yaml", SCENARIO.format(name="wet", text=wet))
+    return write
 
 
 @pytest.fixture
@@ -58,36 +47,31 @@ def columns(distance, speed_kmh=120.0, **changes):
     return dict.fromkeys(STOP_COLUMNS, 1.0) | own | changes
 
 
-@pytest.fixture
-def judge():
+def judge(planned, distances, outcomes=None, bypassed=None, **changes):
     """Judge a series whose stops have these distances (m), outcomes and verdicts, dry ones first.
 
     A list of distances makes a repeated case. Stops with the WSP bypassed have `bypassed`, if there is one.
     """
-
-    def judged(planned, distances, outcomes=None, bypassed=None, **changes):
-        cases = []
-        tested = [stop for stop in planned.stops if stop.role != "bypassed"]
-        without = [stop for stop in planned.stops if stop.role == "bypassed" and bypassed is not None]
-        pairs = [*zip(tested, distances, strict=True), *((stop, bypassed) for stop in without)]
-        for stop, given in pairs:
-            speed = round(stop.speed * 3.6, 6)
-            stops = [
-                _stop(seed, each, speed, (outcomes or {}).get(each, "pass"), changes)
-                for seed, each in enumerate(given if isinstance(given, list) else [given])
-            ]
-            result = CaseResult(stop.case.id, "x.yaml", {}, PASS, stops[0].outcome, stops[0].reason)
-            result = replace(
-                result,
-                criteria=stops[0].criteria,
-                measures=stops[0].measures,
-                wheelsets=stops[0].wheelsets,
-                repeats=Repeats("all", tuple(stops)) if isinstance(given, list) else None,
-            )
-            cases.append(series.SeriesCase(stop.role, speed, result, stop.rail))
-        return series.judge_series(planned, cases)
-
-    return judged
+    cases = []
+    tested = [stop for stop in planned.stops if stop.role != "bypassed"]
+    without = [stop for stop in planned.stops if stop.role == "bypassed" and bypassed is not None]
+    pairs = [*zip(tested, distances, strict=True), *((stop, bypassed) for stop in without)]
+    for stop, given in pairs:
+        speed = round(stop.speed * 3.6, 6)
+        stops = [
+            _stop(seed, each, speed, (outcomes or {}).get(each, "pass"), changes)
+            for seed, each in enumerate(given if isinstance(given, list) else [given])
+        ]
+        result = CaseResult(stop.case.id, "x.yaml", {}, PASS, stops[0].outcome, stops[0].reason)
+        result = replace(
+            result,
+            criteria=stops[0].criteria,
+            measures=stops[0].measures,
+            wheelsets=stops[0].wheelsets,
+            repeats=Repeats("all", tuple(stops)) if isinstance(given, list) else None,
+        )
+        cases.append(series.SeriesCase(stop.role, speed, result, stop.rail))
+    return series.judge_series(planned, cases)
 
 
 def _stop(seed, distance, speed, outcome, changes):

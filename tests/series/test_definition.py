@@ -14,6 +14,7 @@ from uictest.plans.series import loading, stops
 from uictest.plans.series.model import PlannedStop
 
 PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
+WET = "dry: dry.yaml\nwet: {scenario: wet.yaml, %s}\n"
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 DRY = SCENARIOS / "dry-120.yaml"
@@ -109,34 +110,18 @@ def test_two_speeds_have_a_dry_stop_each_and_stops_that_differ_are_run(load):
         ("dry: []\nwet: wet.yaml\n", 3, "an empty list"),
         ("dry: dri.yaml\nwet: wet.yaml\n", 3, "no such file: 'dri.yaml'"),
         ("dry: dry.yaml\nwet: [wet.yaml, wet.yaml]\n", 4, "a second stop 'campaign.wet'"),
-        ("dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.fricton: 0.1}}\n", 4, "unknown key 'fricton'"),
-        (
-            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {initial_speed: 80 km/h}}\n",
-            3,
-            "no wet stop from 120 km/h",
-        ),
-        (
-            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {brake.command: 80 %}}\n",
-            4,
-            "differ in 'brake.command'",
-        ),
-        ("dry: dry.yaml\nwet: {scenario: wet.yaml, set: {vehicle: crh380a}}\n", 4, "differ in 'vehicle'"),
+        (WET % "set: {rail.fricton: 0.1}", 4, "unknown key 'fricton'"),
+        (WET % "set: {initial_speed: 80 km/h}", 3, "no wet stop from 120 km/h"),
+        (WET % "set: {brake.command: 80 %}", 4, "differ in 'brake.command'"),
+        (WET % "set: {vehicle: crh380a}", 4, "differ in 'vehicle'"),
         (f"{PAIR}criteria: uictest-wps\n", 5, "no criteria 'uictest-wps' in the library"),
         (f"{PAIR}criteria: [uictest-wsp, uictest-wsp]\n", 5, "is in profile 'uictest-wsp' as well"),
         (f"{PAIR}valid_stops: 120 %\n", 5, "out of range"),
         (f"{PAIR}repeat: 0\n", 5, "at least 1"),
         (f"{PAIR}matrix: {{name: [a, b]}}\n", 5, "'name' belongs to the file"),
-        ("dry: dry.yaml\nwet: {scenario: wet.yaml, recordings: [a.csv]}\n", 4, "no such file: 'a.csv'"),
-        (
-            "dry: dry.yaml\nwet: {scenario: wet.yaml, recordings: [wet.yaml], set: {seed: [1, 2]}}\n",
-            4,
-            "recordings belong to one stop, the scenario has 2 cases",
-        ),
-        (
-            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: []}}\n",
-            4,
-            "an empty list makes no stop",
-        ),
+        (WET % "recordings: [a.csv]", 4, "no such file: 'a.csv'"),
+        (WET % "recordings: [wet.yaml], set: {seed: [1, 2]}", 4, "one stop, the scenario has 2 cases"),
+        (WET % "set: {rail.friction: []}", 4, "an empty list makes no stop"),
     ],
 )
 def test_what_makes_no_series_is_refused_at_its_place(load, text, line, message):
@@ -151,11 +136,7 @@ def test_what_makes_no_series_is_refused_at_its_place(load, text, line, message)
     ("text", "message", "hint"),
     [
         ("name: x\n", "missing key 'schema'", "uictest/series/1"),
-        (
-            "schema: uictest/scenario/1\nname: x\n",
-            "expected uictest/series/1",
-            "does not end in .series.yaml",
-        ),
+        ("schema: uictest/scenario/1\nname: x\n", "expected uictest/series/1", "not end in .series.yaml"),
     ],
 )
 def test_a_file_of_another_kind_is_refused(write, text, message, hint):
@@ -273,31 +254,22 @@ def test_a_stop_is_refused_where_it_meets_an_earlier_one_in_a_seed_under_the_sam
     ]
 
 
+GRADIENTS = ("rail.gradient=range(0 permille,3 permille,1 permille)",)
+
+
 @pytest.mark.parametrize(
     ("text", "overrides", "counted"),
     [
-        (
-            "wet: {scenario: wet.yaml, set: {seed: %s, brake.command: %s}}\n",
-            (),
-            "119601 stops (1 series of 119601)",
-        ),
-        (
-            "wet: {scenario: wet.yaml, set: {seed: %s}}\nmatrix: {brake.command: %s}\n",
-            (),
-            "119899 stops (299 series of 401)",
-        ),
-        (
-            "wet: {scenario: wet.yaml, set: {seed: %s, brake.command: %s}}\n",
-            ("rail.gradient=range(0 permille,3 permille,1 permille)",),
-            "478404 stops (4 series of 119601)",
-        ),
+        ("set: {seed: %s, brake.command: %s}}\n", (), "119601 stops (1 series of 119601)"),
+        ("set: {seed: %s}}\nmatrix: {brake.command: %s}\n", (), "119899 stops (299 series of 401)"),
+        ("set: {seed: %s, brake.command: %s}}\n", GRADIENTS, "478404 stops (4 series of 119601)"),
     ],
 )
 def test_stops_are_counted_before_any_is_read(load, monkeypatch, text, overrides, counted):
     commands = [f"{command / 10} %" for command in range(500, 799)]
     monkeypatch.setattr(loading, "read_stops", None)
     with pytest.raises(ScenarioErrors, match=re.escape(counted)):
-        load("dry: dry.yaml\n" + text % (list(range(400)), commands), *overrides)
+        load(f"dry: dry.yaml\nwet: {{scenario: wet.yaml, {text % (list(range(400)), commands)}", *overrides)
 
 
 def test_the_reference_is_a_stop_on_dry_rail(load):

@@ -9,9 +9,10 @@ import pytest
 from uictest.judging import evaluation, series
 from uictest.plans.scenario import PASS, expectation_of
 from uictest.plans.scenario.yaml import parse_quantity
-from uictest.report.series.series_sentences import count_sentences, series_line, series_verdict_sentence
+from uictest.report.case_lines import series_line
+from uictest.report.series_report import count_sentences, series_verdict_sentence
 
-from .conftest import no_test
+from .conftest import judge, no_test
 
 THREE = (
     "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.08, 0.09]}}\ncriteria: own.yaml\n"
@@ -37,7 +38,7 @@ def verdicts(result):
     return {each.verdict.id: each for each in result.criteria}
 
 
-def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missing(planned, judge):
+def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missing(planned):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0])
     assert (result.outcome, result.met) == ("pass", True)
     k_wet = verdicts(result)["k-wet"]
@@ -62,7 +63,7 @@ def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missi
     assert "no 95 % interval: one dry stop shows no scatter" in series_verdict_sentence(alone, 0.95)
 
 
-def test_one_stop_from_each_speed_has_a_speed_that_decides(load, judge, write):
+def test_one_stop_from_each_speed_has_a_speed_that_decides(load, write):
     write("own.yaml", OWN)
     speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
     dry, wet = (f"{{scenario: {role}.yaml, {speeds}}}" for role in ("dry", "wet"))
@@ -72,7 +73,7 @@ def test_one_stop_from_each_speed_has_a_speed_that_decides(load, judge, write):
     assert (k_wet.verdict.value, k_wet.speed_kmh) == (pytest.approx(0.8), 120.0)
 
 
-def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load, judge, write):
+def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load, write):
     share = "{id: locks, layer: requirement, scope: series, measure: worst_locked_time,"
     write(
         "own.yaml",
@@ -83,7 +84,7 @@ def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load, judge, write)
     assert (locks.status, locks.reason) == ("inconclusive", "the dry stops have no such number above zero")
 
 
-def test_every_wet_stop_must_keep_a_criterion_of_stops_and_passes_only_within_its_share(planned, judge):
+def test_every_wet_stop_must_keep_a_criterion_of_stops_and_passes_only_within_its_share(planned):
     result = judge(planned, [460.0, 500.0, 520.0, 600.0])
     each = verdicts(result)["each"]
     assert (each.verdict.status, each.kept, each.stops) == ("fail", 2, 3)
@@ -99,7 +100,7 @@ def test_every_wet_stop_must_keep_a_criterion_of_stops_and_passes_only_within_it
     assert verdicts(result)["passing"].verdict.value == pytest.approx(200.0 / 3.0)
 
 
-def test_invalid_stops_do_not_count_and_are_named(planned, judge):
+def test_invalid_stops_do_not_count_and_are_named(planned):
     # The invalid stop of 2000 m would spoil every figure.
     planned = _with_valid_share(planned, "60 %")
     result = judge(planned, [460.0, 500.0, 520.0, 2000.0], {2000.0: "invalid"})
@@ -129,7 +130,7 @@ GRIP = evaluation.Verdict("grip", "rig", 2.0, "1", None, 1.0, -1.0, "fail", "sli
         ((replace(LOCKED, status="inconclusive"),), None),
     ],
 )
-def test_validity_says_whether_a_stop_counts_and_the_outcome_does_not(planned, judge, criteria, counts):
+def test_validity_says_whether_a_stop_counts_and_the_outcome_does_not(planned, criteria, counts):
     planned = _with_valid_share(planned, "60 %")
     *others, last = judge(planned, [460.0, 500.0, 520.0, 2000.0]).cases
     outcome, reason = evaluation.outcome_of(criteria)
@@ -144,7 +145,7 @@ def test_validity_says_whether_a_stop_counts_and_the_outcome_does_not(planned, j
     assert k_wet == pytest.approx(400.0 / mean)
 
 
-def test_of_a_stop_that_leaves_a_requirement_open_it_is_not_known_whether_it_passes(planned, judge):
+def test_of_a_stop_that_leaves_a_requirement_open_it_is_not_known_whether_it_passes(planned):
     *others, last = judge(planned, [460.0, 500.0, 520.0, 540.0]).cases
     left_open = (replace(LOCKED, status="inconclusive"),)
     case = replace(last.case, outcome="inconclusive", reason="locked: 5 s", criteria=left_open)
@@ -160,23 +161,21 @@ def test_of_a_stop_that_leaves_a_requirement_open_it_is_not_known_whether_it_pas
 
 
 @pytest.mark.parametrize("outcome", ["invalid", "skipped"])
-def test_too_few_stops_that_count_decide_nothing(planned, judge, outcome):
+def test_too_few_stops_that_count_decide_nothing(planned, outcome):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {540.0: outcome})
     assert result.outcome == "inconclusive"
     assert {each.verdict.status for each in result.criteria} == {"inconclusive"}
     assert "2 of 3 wet stops from 120 km/h count, 80 % must" in result.reason
 
 
-def test_without_a_dry_stop_that_counts_nothing_is_decided_and_one_that_failed_to_run_is_an_error(
-    planned, judge
-):
+def test_without_a_dry_stop_that_counts_nothing_is_decided_and_one_that_failed_to_run_is_an_error(planned):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {460.0: "invalid"})
     assert result.outcome == "inconclusive"
     assert "none of 1 dry stops from 120 km/h counts" in result.reason
     assert judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "error"}).outcome == "error"
 
 
-def test_a_criterion_of_stops_is_judged_by_the_verdicts_of_those_that_count(load, judge, write):
+def test_a_criterion_of_stops_is_judged_by_the_verdicts_of_those_that_count(load, write):
     over = _locks(load, judge, write, {})
     assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("fail", 2.5, 2, 3)
     over = _locks(load, judge, write, {2.5: "invalid"})
@@ -212,7 +211,7 @@ def _locks(load, judge, write, outcomes, statuses=None):
     return over
 
 
-def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(load, judge, write):
+def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(load, write):
     write("own.yaml", OWN)
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
     distances = [500.0, 505.0, 510.0, 515.0, 520.0, 525.0]
@@ -231,13 +230,13 @@ def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(lo
     assert result.not_counted[0].reason == "initial speed is 115 km/h, nominal 120 +- 3 km/h"
 
 
-def test_a_verdict_names_the_requirements_of_its_criterion(load, judge, write):
+def test_a_verdict_names_the_requirements_of_its_criterion(load, write):
     write("own.yaml", OWN.replace("lower: 0.80}", "lower: 0.80, requirements: [BR-WSP-12]}"))
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
     assert verdicts(judge(planned, [460.0, 500.0]))["k-wet"].verdict.requirements == ("BR-WSP-12",)
 
 
-def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load, judge):
+def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load):
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\nrequirements: [BR-9, BR-1]\ntest_case: WSP-TC-7\n")
     document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0])])))
     (read,) = series.series_results_of(document)
@@ -245,20 +244,20 @@ def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load, jud
     assert document["series"][0]["requirements"] == ["BR-9", "BR-1"]
 
 
-def test_without_requirements_the_document_does_not_speak_of_them(planned, judge):
+def test_without_requirements_the_document_does_not_speak_of_them(planned):
     (form,) = series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])["series"]
     assert not {"requirements", "test_case"} & form.keys()
     assert not any("requirements" in each["verdict"] for each in form["criteria"])
 
 
-def test_expected_failures_are_met(load, judge, write):
+def test_expected_failures_are_met(load, write):
     write("own.yaml", OWN)
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\nexpect: fail\n")
     assert judge(planned, [460.0, 900.0]).met
     assert not judge(planned, [460.0, 500.0]).met
 
 
-def test_a_series_is_judged_again_from_its_document(planned, judge):
+def test_a_series_is_judged_again_from_its_document(planned):
     result = judge(_with_valid_share(planned, "60 %"), [460.0, 500.0, 520.0, 540.0], {540.0: "invalid"})
     document = json.loads(json.dumps(series.series_document([result])))
     (read,) = series.series_results_of(document)
@@ -267,7 +266,7 @@ def test_a_series_is_judged_again_from_its_document(planned, judge):
     assert json.dumps(series.series_document([again])) == json.dumps(document)
 
 
-def test_cases_of_another_series_are_not_judged(planned, load, judge):
+def test_cases_of_another_series_are_not_judged(planned, load):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0])
     (other,) = load("dry: dry.yaml\nwet: wet.yaml\n")
     with pytest.raises(ValueError, match="has no case"):
@@ -293,7 +292,7 @@ def test_cases_of_another_series_are_not_judged(planned, load, judge):
         (lambda document: document["cases"][0].update(outcome=3), "series.cases.0.outcome"),
     ],
 )
-def test_a_document_that_is_none_is_refused(planned, judge, spoil, message):
+def test_a_document_that_is_none_is_refused(planned, spoil, message):
     document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])))
     spoil(document)
     with pytest.raises(ValueError, match=message):
@@ -322,21 +321,21 @@ def two_speeds(load, write):
     return one
 
 
-def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds, judge):
+def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds):
     result = verdicts(judge(two_speeds, [200.0, 400.0, [202.0] * 7, [500.0] * 7]))
     assert (result["long"].verdict.status, result["long"].speed_kmh) == ("pass", 120.0)
     assert (result["short"].verdict.status, result["short"].speed_kmh) == ("fail", 80.0)
     assert result["short"].verdict.value == pytest.approx(101.0)
 
 
-def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds, judge):
+def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds):
     # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
     scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
     long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [500.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
 
 
-def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never_certain(load, judge, write):
+def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never_certain(load, write):
     longest = "{id: longest, layer: requirement, scope: series, measure: worst_braking_distance,"
     own = f"criteria: [{longest} upper: 125 % of the dry stop}}]\n"
     write("own.yaml", f"schema: uictest/criteria/1\nname: own\n{own}")
@@ -353,7 +352,7 @@ def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never
     assert certain([396.0, 404.0], 520.0) == ("fail", False)
 
 
-def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds, judge):
+def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds):
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
     long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [540.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
@@ -380,7 +379,7 @@ criteria:
 """
 
 
-def test_stops_on_different_rails_are_judged_apart(write, load, judge):
+def test_stops_on_different_rails_are_judged_apart(write, load):
     write("rails.yaml", RAILS)
     (planned,) = load(BOTH_RAILS)
     result = judge(planned, [460.0, 500.0, 510.0, 900.0, 910.0], {900.0: "fail", 910.0: "fail"}, 480.0)
@@ -406,7 +405,7 @@ def test_stops_on_different_rails_are_judged_apart(write, load, judge):
     assert "passing_share=" not in line
 
 
-def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load, judge):
+def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load):
     write("rails.yaml", RAILS)
     (planned,) = load(BOTH_RAILS)
     assert [stop.role for stop in planned.stops] == ["dry", *["wet"] * 4, *["bypassed"] * 2]
@@ -428,7 +427,7 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load
     assert read == better
 
 
-def test_a_criterion_that_no_wet_stop_is_for_decides_nothing_and_no_judgement_is_not_met(write, load, judge):
+def test_a_criterion_that_no_wet_stop_is_for_decides_nothing_and_no_judgement_is_not_met(write, load):
     write("rails.yaml", RAILS)
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
     assert [stop.role for stop in planned.stops] == ["dry", "wet"]

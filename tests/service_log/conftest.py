@@ -4,7 +4,7 @@ import warnings
 
 import pytest
 
-from uictest.core.recording.formats import isolation, streams
+from uictest.core.recording.formats import isolation
 
 from ..conftest import READ_APART, read_here
 
@@ -15,7 +15,7 @@ def _read_here(name, path, request, seconds=0.0):
         return
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        pieces = list(streams.PIECES[name](path, **request))
+        pieces = list(isolation.pieces_of(name, path, request))
     yield from pieces
 
 

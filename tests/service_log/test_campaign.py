@@ -34,7 +34,7 @@ def judged(folder, stops, *arguments):
 
 
 def rows(run, name):
-    path = run / f"campaign_{name}.csv"
+    path = run / f"tables/campaign_{name}.csv"
     return list(csv.DictReader(path.read_text("utf-8").splitlines())) if path.is_file() else []
 
 
@@ -158,8 +158,9 @@ def test_a_log_without_a_stop_leaves_reports_that_say_so(tmp_path, capsys, monke
     results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
     assert (results["cases"], len(results.get("passed_over", []))) == ([], int(braked))
     assert reason in results["campaign"]["sentences"][0]
-    for name in ("index.html", "stops.csv", "junit.xml"):
+    for name in ("index.html", "junit.xml"):
         assert Path("reports/latest", name).is_file()
+    assert Path("reports/latest/tables/campaign_passed_over.csv").is_file() == braked
     assert Path("j.xml").read_bytes() == Path("reports/latest/junit.xml").read_bytes()
 
 
@@ -213,9 +214,9 @@ def test_whatever_a_record_lacks_the_rest_is_said(recorded, lacking):
 def test_the_friction_of_a_stop_stands_beside_its_place_on_the_line(recorded):
     stop, case = recorded
     (table,) = [
-        each for each in shown_by(replace(stop, place=12_345.0), case).tables if each.name == "friction"
+        each for each in shown_by(replace(stop, position=12_345.0), case).tables if each.name == "friction"
     ]
-    assert [row["place_m"] for row in table.data.rows] == [12_345.0]
+    assert [row["place_m"] for row in table.table.rows] == [12_345.0]
 
 
 @pytest.mark.parametrize("samples", [1, 2, 15, 40])
@@ -224,4 +225,4 @@ def test_a_stop_of_a_few_samples_has_no_friction(recorded, samples):
     kept = {name: own[:samples] for name, own in stop.recording.channels.items()}
     short = replace(stop, recording=Recording(kept, stop.recording.units), standstill=None)
     (table,) = [each for each in shown_by(short, case).tables if each.name == "friction"]
-    assert [row["standing"] for row in table.data.rows] != ["found"]
+    assert [row["standing"] for row in table.table.rows] != ["found"]

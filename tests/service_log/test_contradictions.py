@@ -10,7 +10,7 @@ from pyarrow import parquet
 from tests.service_log.test_found_stops import MAP, STATED, STEP, UNITS, table, written
 from tests.service_log.test_odd_logs import KINDS, PLACES, found
 from uictest.cli.entry import execute
-from uictest.core.recording.formats import UnreadableError, streams
+from uictest.core.recording.formats import UnreadableError, tdms
 from uictest.recorded import service_log
 from uictest.recorded.field_data import MapError, UnusableError, stop_in
 from uictest.recorded.service_log import find_stops, write_stops
@@ -169,7 +169,7 @@ def test_waveforms_of_devices_that_start_apart_lie_where_they_began(tmp_path):
     ]
     with nptdms.TdmsWriter(tmp_path / "log.tdms") as writer:
         writer.write_segment(objects)
-    (piece,) = streams.tdms_pieces(tmp_path / "log.tdms", None, ("speed",), 1000)
+    (piece,) = tdms.pieces(tmp_path / "log.tdms", None, ("speed",), 1000)
     assert [group.time[0] for group in piece.groups] == pytest.approx([0.0, 3.0])
 
 

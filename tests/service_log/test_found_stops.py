@@ -8,6 +8,7 @@ from pathlib import Path
 from threading import Timer
 
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
@@ -17,9 +18,9 @@ import uictest
 from uictest.cli.entry import execute
 from uictest.core import guarded_process
 from uictest.core.guarded_process import GuardedProcess
-from uictest.core.recording.formats import ReadingInterruptedError, UnreadableError, isolation, streams
+from uictest.core.recording.formats import ReadingInterruptedError, UnreadableError, isolation, mdf, tdms
 from uictest.recorded.field_data import MapError, load_map, stop_in
-from uictest.recorded.service_log import channels, find_stops, finder, write_stops
+from uictest.recorded.service_log import find_stops, signals, stops, write_stops
 
 STEP = 0.1
 MAP = load_map("uictest")[0]
@@ -149,7 +150,8 @@ def _small_pieces(monkeypatch):
     """Pieces of a minute and a half, as if the logs of these tests were long."""
     monkeypatch.setattr("uictest.core.recording.formats.pieces._ROWS", 900)
     monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 900 * 60)
-    monkeypatch.setattr(streams, "AT_ONCE", {"mdf": 900 * 60, "tdms": 900})
+    monkeypatch.setattr(mdf, "AT_ONCE", 900 * 60)
+    monkeypatch.setattr(tdms, "AT_ONCE", 900)
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet", "mf4", "mdf", "tdms"])
@@ -181,10 +183,13 @@ def test_the_finder_holds_no_more_than_an_application(tmp_path, monkeypatch):
     """Nor more where the train then stands with its brake applied for long."""
     monkeypatch.setattr("uictest.core.recording.formats.pieces._ROWS", 50)
     held = []
-    course = finder.Course
-    monkeypatch.setattr(
-        finder, "Course", lambda rows, *others: held.append(len(rows.time)) or course(rows, *others)
-    )
+
+    class Counted(stops.Course):
+        def __init__(self, rows, *others):
+            held.append(len(rows.time))
+            super().__init__(rows, *others)
+
+    monkeypatch.setattr(stops, "Course", Counted)
     columns = table(["stop", "drag"] * 10 + ["stop"])
     parked = {name: np.concatenate((v, np.full(8_000, v[-1]))) for name, v in columns.items()}
     parked["time"] = STEP * np.arange(len(parked["time"]))
@@ -200,7 +205,7 @@ def test_a_long_text_is_not_read_far_ahead(tmp_path, monkeypatch):
     monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 10_000)
     path = written(table(["stop", "drag"] * 20), tmp_path / "log.csv")
     before = pa.total_allocated_bytes()
-    held = [pa.total_allocated_bytes() - before for _ in channels.pieces_of(path, MAP)]
+    held = [pa.total_allocated_bytes() - before for _ in signals.pieces_of(path, MAP)]
     assert path.stat().st_size > 150 * 10_000
     assert max(held) < 45 * 10_000
 
@@ -210,7 +215,7 @@ def test_one_long_segment_is_read_as_many_short_ones(tmp_path, small_pieces):
     long, short = (
         written_tdms([columns], tmp_path / f"{rows}.tdms", rows) for rows in (len(columns["time"]), 500)
     )
-    for one, other in zip(channels.pieces_of(long, MAP), channels.pieces_of(short, MAP), strict=True):
+    for one, other in zip(signals.pieces_of(long, MAP), signals.pieces_of(short, MAP), strict=True):
         assert all(np.array_equal(one.channels[k].samples, other.channels[k].samples) for k in one.channels)
 
 
@@ -286,7 +291,7 @@ def test_a_reader_that_crashes_or_hangs_in_the_middle_is_told(
 def test_a_log_that_is_not_read_to_its_end_leaves_no_process(tmp_path, monkeypatch, apart, small_pieces):
     begun = []
     monkeypatch.setattr(guarded_process, "GuardedProcess", noted_in(begun))
-    pieces = channels.pieces_of(written(table(["stop"] * 10), tmp_path / "log.tdms"), MAP)
+    pieces = signals.pieces_of(written(table(["stop"] * 10), tmp_path / "log.tdms"), MAP)
     next(pieces)
     pieces.close()
     assert [each.returncode is not None for each in begun] == [True]
@@ -384,9 +389,11 @@ def test_the_command_judges_each_stop_and_lists_the_rest(tmp_path, monkeypatch, 
     shown = capsys.readouterr()
     assert code in (0, 1)
     assert re.search(r"passed over: day.csv at 60 s \(sample 601, \d+ m\): drag", shown.err)
-    rows = (tmp_path / "reports/latest/stops.csv").read_text("utf-8").splitlines()
-    names = [row.partition(",")[0] for row in rows]
-    assert (names[0], set(names[1:3]), names[3:]) == ("stop", {"stop-0001", "stop-0002"}, [""])
+    tables = tmp_path / "reports/latest/tables"
+    stops, passed_over = (pd.read_csv(tables / f"campaign_{name}.csv") for name in ("stops", "passed_over"))
+    assert set(stops["stops"]) == {"stop-0001", "stop-0002"}
+    assert passed_over[["file", "sample"]].values.tolist() == [["day.csv", 601]]
+    assert passed_over["reason"][0].startswith("drag")
     results = json.loads((tmp_path / "reports/latest/results.json").read_text("utf-8"))
     assert [case["id"] for case in results["cases"]] == ["stop-0001", "stop-0002"]
     assert execute(["evaluate", "stops/stop-0001.parquet", *STATED]) == code
@@ -485,7 +492,8 @@ def test_a_recorded_distance_gives_the_place_on_the_line(tmp_path, monkeypatch):
     written(columns, tmp_path / "day.parquet")
     execute(["log", "day.parquet", "-q", *STATED])
     heading, row = (
-        line.split(",") for line in Path("reports/latest/stops.csv").read_text("utf-8").splitlines()
+        line.split(",")
+        for line in Path("reports/latest/tables/campaign_stops.csv").read_text("utf-8").splitlines()
     )
     place, sample = (row[heading.index(name)] for name in ("place_m", "sample"))
     assert float(place) == pytest.approx(columns["distance"][int(sample) - 1], abs=0.1)

@@ -13,7 +13,7 @@ from scipy.stats import binom
 
 import uictest
 from tests.service_log import logs
-from uictest.analysis.logged_stops.friction import friction_of
+from uictest.analysis.logged_stops.stop_groups import friction_of
 from uictest.recorded import fitting
 from uictest.recorded.field_data import load_map, stop_in
 from uictest.recorded.service_log import find_stops, write_stops

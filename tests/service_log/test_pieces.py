@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.recorded.service_log import finder
+from uictest.recorded.service_log import stops
 from uictest.recorded.service_log.signals import Rows
 
 STEP = 0.1
@@ -47,7 +47,7 @@ def random_rows(seed):
 
 def found(rows, cuts):
     """Return the events of rows that come in pieces, as texts, and how many rows were held at most."""
-    search, held, events = finder._Finder(finder.FinderSettings(), 1.0 / 3.6), [0], []
+    search, held, events = stops._Finder(stops.FinderSettings(), 1.0 / 3.6), [0], []
     search.begin(Path("log"))
     for begin, end in zip([0, *cuts], [*cuts, len(rows.time)], strict=True):
         events += search.add(Rows(*(samples[begin:end] for samples in rows)))
@@ -60,7 +60,7 @@ def found(rows, cuts):
 def test_pieces_of_any_length_give_the_same_events(longest, seed, length):
     rows = random_rows(seed)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(finder, "_LONGEST", longest)
+        patch.setattr(stops._Finder, "LONGEST", longest)
         cuts = range(length, len(rows.time), length)
         assert found(rows, cuts)[0] == found(rows, [])[0]
 
@@ -83,10 +83,13 @@ def test_a_brake_signal_that_is_stuck_is_said_and_does_not_fill_the_memory():
 
 def test_a_stuck_signal_is_not_gone_through_again_with_every_piece(monkeypatch):
     seen = []
-    course = finder.Course
-    monkeypatch.setattr(
-        finder, "Course", lambda rows, *others: seen.append(len(rows.time)) or course(rows, *others)
-    )
+
+    class Counted(stops.Course):
+        def __init__(self, rows, *others):
+            seen.append(len(rows.time))
+            super().__init__(rows, *others)
+
+    monkeypatch.setattr(stops, "Course", Counted)
     rows = 30_000
     running = np.full(rows, 30.0)
     found(Rows(STEP * np.arange(rows), running, running, np.ones(rows)), range(100, rows, 100))

@@ -8,12 +8,7 @@ from hypothesis import given, strategies as st
 
 import uictest
 from tests.service_log import logs
-from uictest.analysis.logged_stops.stop_groups import (
-    LoggedStop,
-    dry_table,
-    outliers_of,
-    references,
-)
+from uictest.analysis.logged_stops.stop_groups import LoggedStop, dry_table, outliers_of, references
 from uictest.analysis.logged_stops.wet_stops import extensions, series_table, wet_series
 from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import PASS
@@ -37,7 +32,7 @@ def test_stops_of_one_deceleration_have_one_distance(speeds, deceleration):
     stops = [
         stop(k, *pair) for k, pair in enumerate(zip(speeds, distances(deceleration, speeds), strict=True))
     ]
-    (row,) = dry_table(stops).data.rows
+    (row,) = dry_table(stops).table.rows
     assert row["mean_m"] == pytest.approx((120.0 * KMH) ** 2 / (2.0 * deceleration), rel=1e-9)
     assert row["deviation_percent"] == pytest.approx(0.0, abs=1e-5)
 
@@ -45,7 +40,7 @@ def test_stops_of_one_deceleration_have_one_distance(speeds, deceleration):
 def test_speeds_between_two_groups_are_in_none():
     assert stop(1, 115.0, 400.0).nominal is None
     assert [
-        row["speed_kmh"] for row in dry_table([stop(1, 115.0, 400.0), stop(2, 82.0, 200.0)]).data.rows
+        row["speed_kmh"] for row in dry_table([stop(1, 115.0, 400.0), stop(2, 82.0, 200.0)]).table.rows
     ] == [80.0]
 
 
@@ -58,7 +53,7 @@ def test_an_outlier_is_named_and_hides_no_other(factor):
 
 def test_of_two_stops_apart_neither_is_accepted():
     stops = [stop(1, 100.0, 398.6), stop(2, 100.0, 563.9)]
-    (row,) = dry_table(stops).data.rows
+    (row,) = dry_table(stops).table.rows
     assert row["accepted"] == "0 of 2"
     assert references(stops) == {}
 
@@ -78,7 +73,7 @@ def test_of_dry_stops_that_fall_into_halves_none_is_a_reference(halves):
 
 def test_mean_and_interval_of_dry_stops_are_those_of_the_reference():
     dry = [stop(k, 100.0, length) for k, length in enumerate((400.0, 396.0, 404.0, 667.0))]
-    (row,) = dry_table(dry).data.rows
+    (row,) = dry_table(dry).table.rows
     assert row["mean_m"] == pytest.approx(400.0)
     assert row["high_m"] < 420.0
     assert (row["accepted"], row["stops"]) == ("3 of 4", "stop-0003")
@@ -119,7 +114,7 @@ def _k_wet():
             measures = dict(own.result.measures, deceleration_distance_m=length)
             result = replace(own.result, measures=measures)
             stops.append(replace(own, result=result, case=dry if is_dry else wet))
-        return next(row for row in series_table(wet_series(stops)).data.rows if row["measure"] == "k_wet")
+        return next(row for row in series_table(wet_series(stops)).table.rows if row["measure"] == "k_wet")
 
     return row
 

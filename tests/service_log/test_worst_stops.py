@@ -53,7 +53,7 @@ def judged(folder, tmp_path, monkeypatch, criteria):
     arguments = ["--map", str(folder / "map.yaml"), "--scenario", "night.yaml"]
     assert execute(["log", str(folder / "log.csv"), *arguments]) in (0, 1)
     run = tmp_path / "reports" / "latest"
-    return run, list(csv.DictReader((run / "stops.csv").read_text("utf-8").splitlines()))
+    return run, list(csv.DictReader((run / "tables/campaign_stops.csv").read_text("utf-8").splitlines()))
 
 
 @pytest.mark.parametrize("criteria", ["uictest-stop", "uictest-wsp"])
@@ -61,7 +61,7 @@ def test_the_worst_stop_comes_first_and_the_best_dry_ones_last(log, tmp_path, mo
     """By `uictest-wsp` the dry stops are no slide tests, by which they used to be the worst of all."""
     folder, _ = log
     _, stops = judged(folder, tmp_path, monkeypatch, criteria)
-    names = [row["stop"] for row in stops]
+    names = [row["stops"] for row in stops]
     assert names[:3] == [LOCKS, SLIDES_LONGER, SLIDES]
     assert set(names[3:]) == set(DRY)
     assert float(stops[0]["locked_s"]) > 10.0
@@ -84,7 +84,7 @@ def test_terminal_page_and_tables_say_when_and_where(log, tmp_path, monkeypatch,
         assert float(row["distance_m"]) == pytest.approx(travelled[sample], abs=0.5)
         assert float(row["place_m"]) == pytest.approx(PLACE + travelled[sample], abs=0.5)
         assert cells[1] == row["clock"]
-        line = next(each for each in shown.splitlines() if each.startswith(f"  {row['stop']} "))
+        line = next(each for each in shown.splitlines() if each.startswith(f"  {row['stops']} "))
         assert re.search(rf"{row['clock']} +{float(row['distance_m']):.0f} ", line)
         assert row["clock"] in page
 

@@ -51,11 +51,7 @@ def study(name, value, band=OURS):
     def draw(figure):
         figure.subplots().plot([0.0, value])
 
-    findings = StudyFindings(
-        {"value": StudyValue(value)},
-        {"data": {"value_m": [value]}},
-        {"figure": draw},
-    )
+    findings = StudyFindings({"value": StudyValue(value)}, {"data": {"value_m": [value]}}, {"figure": draw})
     return Study(name, f"Study {name}", "1 m", (quantity,), lambda stop_runner: findings)
 
 
@@ -68,10 +64,7 @@ def catalogue(monkeypatch):
 
 def test_studies_are_listed(call):
     assert call("--list").out == "sound  Study sound\namiss  Study amiss\n"
-    assert [each["name"] for each in json.loads(call("--list", "--format", "json").out)] == [
-        "sound",
-        "amiss",
-    ]
+    assert [each["name"] for each in json.loads(call("--list", "--format", "json").out)] == ["sound", "amiss"]
 
 
 def test_exit_0_only_where_every_band_holds(call):

@@ -1,9 +1,8 @@
 """Sweeps of one scenario in a folder of their own, and a rig whose stops are a formula."""
 
 import io
-import os
 import shutil
-import subprocess
+from dataclasses import replace
 from pathlib import Path
 from textwrap import indent
 
@@ -13,12 +12,14 @@ import pytest
 
 from uictest import rig
 from uictest.analysis.summaries import summarized
-from uictest.controllers import HEADER
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.plans.scenario import load as load_scenarios
 from uictest.plans.sweeps import load_sweep
 from uictest.rig.model.rail import FRICTIONS
-from uictest.running.chunked import BlockRunner, ChunkStore
-from uictest.running.chunked.case_blocks import BlockAssembler
+from uictest.running.chunked import ChunkRunner, ChunkStore
+from uictest.running.chunked.many_stops import ManyStops
+
+from ..c_compiler import build_library
 
 SCENARIO = """\
 schema: uictest/scenario/1
@@ -54,6 +55,16 @@ def load(tmp_path, monkeypatch):
         return load_sweep(Path("study.sweep.yaml"), overrides, **options)
 
     return write_and_load
+
+
+def written_out(plan, index, *overrides):
+    """The case as `uictest run --set ...` would load it, with the id that it has in the sweep."""
+    settings = plan.settings(np.array([index]))
+    # A part first, then what lies inside it: an override of a part would take the inside with it.
+    keys = sorted(settings, key=lambda key: key.count("."))
+    texts = [f"{key}={settings[key][0].text}" for key in keys]
+    case = load_scenarios([Path("stop.yaml")], [*overrides, *texts])[0]
+    return replace(case, id=plan.ids(np.array([index]))[0], path=plan.base.path)
 
 
 def rows(content):
@@ -110,20 +121,22 @@ def formula(parameters, wheelset_parameters, rail):
     return measures, wheelsets
 
 
-@pytest.fixture
-def made_up():
+def formula_of(case, simulate=formula):
+    """The measures of the stop of a case, and of its wheelsets."""
+    parameters, wheelset_parameters, rail, *_ = rig.assemble(case)
+    measures, wheelsets = simulate(np.array([parameters]), wheelset_parameters[None], rail[None])
+    return measures[0], wheelsets[0]
+
+
+def made_up(plan, simulate=formula, **options):
     """A runner whose stops are the formula."""
-    return lambda plan: BlockRunner(BlockAssembler(plan), formula, plan, rig.run_block)
+    return ChunkRunner(plan, ManyStops(plan.keys, rig.run_block, simulate, **options))
 
 
 @pytest.fixture
 def library(tmp_path):
     """The controller slip-band as a shared library beside the sweep, as a scenario names it."""
-    compiler = shutil.which(os.environ.get("CC", "gcc"))
-    if compiler is None:
-        pytest.skip("no C compiler")
-    options = ["-O2", "-ffp-contract=off", "-fPIC", "-shared", f"-I{HEADER.parent}"]
-    subprocess.run([compiler, *options, "-o", tmp_path / "libband.so", SLIP_BAND / "slip_band.c"], check=True)
+    build_library(tmp_path / "libband.so", SLIP_BAND / "slip_band.c")
     return "libband.so"
 
 

@@ -16,11 +16,15 @@ from uictest.selftest.conformance.bench import Bench
 REPOSITORY = Path(__file__).parents[2]
 
 
-def written(language, folder):
-    """Write the files, build them where they must be built, and return the part."""
+def write_files(language, folder):
     folder.mkdir()
     for name, text in templates.controller_files(language).items():
         (folder / name).write_text(text, "utf-8")
+
+
+def written(language, folder):
+    """Write the files, build them where they must be built, and return the part."""
+    write_files(language, folder)
     if language == "c":
         compiler = shutil.which("gcc") or shutil.which("cc")
         if compiler is None:
@@ -52,7 +56,7 @@ def test_its_wheelsets_slide_in_a_slip_brake_test_but_do_not_lock(part):
     ).case_run.result
     assert result.met, result
     assert {each.id for each in result.criteria if each.status == "fail"} == {
-        *("wheelset-contact-energy", "distance-over-reference"),
+        *("wheelset-contact-energy", "distance-over-reference")
     }
     assert {each.id for each in result.criteria} >= {"initial-adhesion", "minimum-slide", "locked-wheels"}
 
@@ -73,12 +77,9 @@ def test_both_languages_give_the_same_answers(tmp_path):
 def test_make_builds_what_the_part_names(tmp_path):
     if shutil.which("make") is None or shutil.which("cc") is None:
         pytest.skip("no make, or no C compiler")
-    folder = tmp_path / "made"
-    folder.mkdir()
-    for name, text in templates.controller_files("c").items():
-        (folder / name).write_text(text, "utf-8")
-    subprocess.run(["make", "-s"], cwd=folder, check=True)
-    assert load_controller(str(folder / "my-wsp.yaml"))
+    write_files("c", tmp_path / "made")
+    subprocess.run(["make", "-s"], cwd=tmp_path / "made", check=True)
+    assert load_controller(str(tmp_path / "made" / "my-wsp.yaml"))
 
 
 def _controllers(node):

@@ -1,13 +1,16 @@
-"""Bias and spread of a figure against known differences and SciPy."""
+"""The agreement of recorded and simulated stops."""
 
 import math
+import os
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 from scipy import stats
 
-from uictest.analysis.validation import agreement_of
+from uictest.analysis.validation import ComparedStop, agreement_of, figures_of, read_validation
+from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
 
 RECORDED = [450.0, 460.0, 470.0, 455.0]
 NAN = math.nan
@@ -74,3 +77,34 @@ def test_the_order_of_stops_makes_no_difference_and_the_sign_is_simulated_minus_
     other = agreement_of("d", "m", simulated[::-1], recorded[::-1])
     assert one.absolute.bias == pytest.approx(-other.absolute.bias, abs=1e-9)
     assert one.absolute.limits_low == pytest.approx(-other.absolute.limits_high, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("tuned", "not_counted", "counted"),
+    [(False, "", True), (True, "", False), (False, "a copy of a.csv", False), (True, "a gap", False)],
+)
+def test_a_stop_counts_that_can_be_compared_and_that_nothing_was_tuned_with(tuned, not_counted, counted):
+    stop = ComparedStop("a", "a.csv", "00", 33.0, tuned=tuned, not_counted=not_counted)
+    assert stop.counted == counted
+
+
+def test_figures_of_wheelsets_are_numbered_from_1_which_leads():
+    measures, slides = {"braking_distance_m": 470.0}, {n: 0.1 * n for n in (1, 2, 3, 4)}
+    wheelsets = tuple({"maximum_slide": share} for share in slides.values())
+    result = CaseResult("a", "a.yaml", {}, PASS, "pass", measures=measures, wheelsets=wheelsets)
+    assert figures_of(result) == measures | {f"maximum_slide_{n}": share for n, share in slides.items()}
+    assert figures_of(CaseResult("a", "a.yaml", {}, PASS, "error")) == {}
+
+
+def test_a_pipe_is_not_waited_for(tmp_path):
+    pipe = tmp_path / "validation.json"
+    os.mkfifo(pipe)
+    with pytest.raises(ValueError, match="no regular file"):
+        read_validation(pipe)
+
+
+def test_deep_nesting_is_rejected(tmp_path):
+    path = tmp_path / "validation.json"
+    path.write_text("[" * 1_000_000)
+    with pytest.raises(ValueError, match="nested too deeply"):
+        read_validation(path)

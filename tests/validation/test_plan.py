@@ -1,7 +1,5 @@
 """What a validation file may say, and where its errors are."""
 
-from pathlib import Path
-
 import pytest
 
 from uictest.plans import series
@@ -13,19 +11,13 @@ BEGIN = "schema: uictest/validation/1\nname: my-train\nstops:\n"
 
 
 @pytest.fixture
-def write(tmp_path, monkeypatch):
+def write(write):
     """Write a file into the working folder, which holds two scenarios and two recordings."""
-    monkeypatch.chdir(tmp_path)
-
-    def to(name, text):
-        Path(name).write_text(text, "utf-8")
-        return Path(name)
-
     for name, rail in (("dry", "dry"), ("wet", "wet")):
-        to(f"{name}.yaml", STOP.format(name=name, rail=rail))
+        write(f"{name}.yaml", STOP.format(name=name, rail=rail))
     for name in ("one", "two"):
-        to(f"{name}.csv", "time\n")
-    return to
+        write(f"{name}.csv", "time\n")
+    return write
 
 
 def test_every_entry_is_one_case_with_its_recordings(write):

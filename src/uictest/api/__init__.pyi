@@ -7,6 +7,5 @@ from .loading import (
 from .recorded import Validation as Validation, evaluate as evaluate, validate as validate
 from .results import Results as Results
 from .running import run as run
-from .stepping import Rig as Rig
+from .stepping import Rig as Rig, TrainRig as TrainRig
 from .sweeping import SweepResults as SweepResults, sweep as sweep
-from .train_stepping import TrainRig as TrainRig

@@ -81,13 +81,11 @@ def command_words(words: Sequence[PathName], options: Mapping[str, object]) -> l
         words: the command and what it works on.
         options: option -> value, or several; None: the option is not there.
     """
-    pairs = [
-        (option, str(each))
-        for option, value in options.items()
-        for each in (value if isinstance(value, list) else [value])
-        if each is not None
-    ]
-    return [*map(str, words), *(word for pair in pairs for word in pair)]
+    command = [str(word) for word in words]
+    for option, value in options.items():
+        for stated in value if isinstance(value, list) else [value]:
+            command += [] if stated is None else [option, str(stated)]
+    return command
 
 
 Assignments = Mapping[str, Any]
@@ -115,7 +113,7 @@ def override_texts(assignments: Assignments | None, repeat: int | None = None) -
         raise ValueError("set: a value is nested too deeply") from None
     if repeat is None:
         return texts
-    if not isinstance(repeat, Integral) or isinstance(repeat, bool) or not 1 <= repeat <= 1000:
+    if not _is_whole(repeat) or not 1 <= repeat <= 1000:
         raise ValueError(f"repeat is {repeat!r}, expected a whole number from 1 to 1000")
     return [*texts, f"repeat={int(repeat)}"]
 
@@ -125,7 +123,8 @@ def _axis(key: str, value: Any) -> str:
     if listed is None:
         # A text is taken as it would stand on the command line: `a,b` and `range(...)` are axes.
         return value if isinstance(value, str) else _flow(key, value)
-    return ",".join(_item(key, each) for each in listed)
+    items = (_quoted(item) if isinstance(item, str) else _flow(key, item) for item in listed)
+    return ",".join(items)
 
 
 def _listed(value: Any) -> Sequence[Any] | None:
@@ -136,12 +135,10 @@ def _listed(value: Any) -> Sequence[Any] | None:
     return items if isinstance(items, list) else None
 
 
-def _item(key: str, value: Any) -> str:
-    """Return one value of an axis; a text in which a comma would divide it is quoted."""
-    if not isinstance(value, str):
-        return _flow(key, value)
-    divided = "," in value and not value.lstrip().startswith(_ENCLOSED)
-    return json.dumps(value, ensure_ascii=False) if divided else value
+def _quoted(text: str) -> str:
+    """Return a text as one value of an axis, in quotes where a comma in it would divide it."""
+    divided = "," in text and not text.lstrip().startswith(_ENCLOSED)
+    return json.dumps(text, ensure_ascii=False) if divided else text
 
 
 def _flow(key: str, value: Any) -> str:
@@ -153,23 +150,16 @@ def _flow(key: str, value: Any) -> str:
     if isinstance(value, Integral):
         return str(int(value))
     if isinstance(value, Decimal | Real):
-        return _number(key, value)
+        if not math.isfinite(value):
+            raise ValueError(f"set: {key} is {value}, expected a finite number")
+        return str(value) if isinstance(value, Decimal) else repr(float(value))
     if isinstance(value, PathLike):
         return Path(fspath(value)).as_posix()
     if isinstance(value, Mapping):
-        return "{" + _joined(f"{_flow(key, name)}: {_flow(key, each)}" for name, each in value.items()) + "}"
+        items = ", ".join(f"{_flow(key, name)}: {_flow(key, item)}" for name, item in value.items())
+        return f"{{{items}}}"
     if (listed := _listed(value)) is not None:
-        return "[" + _joined(_flow(key, each) for each in listed) + "]"
+        return f"[{', '.join(_flow(key, item) for item in listed)}]"
     if hasattr(value, "item"):
         return _flow(key, value.item())
     raise TypeError(f"set: {key} is a {type(value).__name__}; write a text, a number or a list of them")
-
-
-def _joined(texts: Iterable[str]) -> str:
-    return ", ".join(texts)
-
-
-def _number(key: str, value: Decimal | Real) -> str:
-    if not math.isfinite(value):
-        raise ValueError(f"set: {key} is {value}, expected a finite number")
-    return str(value) if isinstance(value, Decimal) else repr(float(value))

@@ -59,10 +59,7 @@ def load(
 
 
 def selected(
-    cases: Sequence[scenario.Case],
-    planned: Sequence[series.Series],
-    select: str | None,
-    tag: str | None,
+    cases: Sequence[scenario.Case], planned: Sequence[series.Series], select: str | None, tag: str | None
 ) -> tuple[list[scenario.Case], list[series.Series]]:
     """Return the selected cases and series. Raises ValueError where there are none."""
     with expression_of("select", select):
@@ -72,13 +69,6 @@ def selected(
     if not (chosen or of_series):
         raise ValueError(runs.nothing_selected(cases, planned))
     return chosen, of_series
-
-
-def one_case(
-    path: Path, case: str | None, texts: Sequence[str], seed: int | None, trusted: Sequence[Path]
-) -> scenario.Case:
-    """Return the case of an id, or the only one, of a scenario file. Raises ValueError, ScenarioErrors."""
-    return scenario.chosen_case(runs.load_cases([path], texts, seed, trusted), case)
 
 
 def simulate(
@@ -125,7 +115,7 @@ def _case(
 ) -> scenario.Case:
     texts = override_texts(assignments)
     if not isinstance(what, scenario.Case):
-        return one_case(Path(what), case, texts, seed, trusted)
+        return scenario.chosen_case(runs.load_cases([Path(what)], texts, seed, trusted), case)
     if texts or trusted or case is not None:
         raise ValueError("case, set and trust apply to files: pass set and trust to uictest.load")
     if seed is None:
@@ -157,7 +147,7 @@ def read_recording(
     if str(channel_map) == _AS_WRITTEN:
         return runs.each_file([path], runs.read_recording)[0]
     mapped, _ = runs.named_map(str(channel_map), as_paths(trust))
-    stop = runs.each_file([path], lambda each: runs.read_stop(each, mapped))[0]
+    stop = runs.each_file([path], lambda file: runs.read_stop(file, mapped))[0]
     facts = {**stop.choices, "defects": "; ".join(map(str, stop.defects)) or "none"}
     samples = stop.recording
     return recording.Recording(samples.channels, samples.units, {**samples.metadata, **facts})

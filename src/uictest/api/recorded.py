@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -92,8 +92,11 @@ def evaluate(
     paths, folders, request = as_paths(files), as_paths(trust), recording_request(record)
     if not paths:
         raise ValueError("nothing to evaluate: name recordings")
-    stated = _statements([criteria] if isinstance(criteria, str) else criteria, rail, position, wsp)
-    statements, overrides = list(stated), override_texts(set)
+    names = [criteria] if isinstance(criteria, str) else criteria
+    listed = f"[{', '.join(names)}]" if names else None
+    stated = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": listed}
+    statements = [f"{key}={text}" for key, text in stated.items() if text is not None]
+    overrides = override_texts(set)
     options = {
         "--scenario": scenario.path if isinstance(scenario, scenarios.Case) else scenario,
         "-k": select,
@@ -143,15 +146,6 @@ def _case_of(
         trusted,
         lambda keys: f"scenario=, or with {', '.join(f'{_ARGUMENTS[key]}=' for key in keys)}",
     )
-
-
-def _statements(
-    criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
-) -> Iterator[str]:
-    """Yield what is stated of recordings in the form of `--set`."""
-    listed = f"[{', '.join(criteria)}]" if criteria else None
-    stated = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": listed}
-    yield from (f"{key}={text}" for key, text in stated.items() if text is not None)
 
 
 class Validation:
@@ -244,7 +238,7 @@ def validate(
     threads, texts, folders = thread_count(jobs), override_texts(set), as_paths(trust)
     plan, *others = runs.load_validations([Path(file)], texts, folders)
     if others:
-        names = ", ".join(each.name for each in (plan, *others))
+        names = ", ".join(one.name for one in (plan, *others))
         raise ValueError(f"{file}: each series is a validation of its own, found {names}: name a file of one")
     run = runs.run_validation(plan, threads, folders, runs.Observer())
     folder = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, overload
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, overload
 from uictest import report, runs
 from uictest.api.arguments import PathName
 from uictest.core import measures
-from uictest.core.document import Column, Data, Table
+from uictest.core.document import Table
 from uictest.core.recording import Recording, read_parquet
 from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def frame_of(table: Data, index: Sequence[str]) -> pd.DataFrame:
+def frame_of(table: Table, index: Sequence[str]) -> pd.DataFrame:
     """Return a table as a data frame with the units of its columns in `attrs["units"]`.
 
     Columns of numbers are 64-bit floats (NaN: no number), or integers and booleans where every row has one.
@@ -29,9 +30,11 @@ def frame_of(table: Data, index: Sequence[str]) -> pd.DataFrame:
     """
     import pandas as pd
 
-    names = table.columns or index  # a table without rows may have no columns
-    columns = {name: _column([row.get(name) for row in table.rows]) for name in names}
-    frame = pd.DataFrame(columns, columns=list(names)).set_index(list(index))
+    records = list(table.records)
+    # A table without rows may have no columns.
+    names = [column.key for column in table.for_programs] or list(index)
+    columns = {name: _column([record[name] for record in records]) for name in names}
+    frame = pd.DataFrame(columns, columns=names).set_index(list(index))
     return with_units(frame)
 
 
@@ -66,27 +69,16 @@ def _column(values: Sequence[Any]) -> Any:
 
 
 _MOST_ROWS: Final = 50
-_MEASURES: Final = 2
-"""Measures in the table: distance and time."""
 
 
 def verdict_html(content: report.RunContent) -> str:
     """Return the counts of a run and one row for each case, those not as expected first. Text is escaped."""
-
-    def word(judged: Any) -> str:
-        return (report.series_word if isinstance(judged, SeriesResult) else report.result_word)(judged)
-
-    columns: list[Column[Any]] = [
-        Column(heading="case", text=lambda judged: judged.id),
-        Column(heading="verdict", text=word, tone=lambda judged: report.tone(word(judged))),
-        *report.measure_columns(content.results)[:_MEASURES],
-        Column(heading="reason", text=lambda judged: "" if judged.met else judged.reason),
-    ]
-    ranked = sorted(content.results, key=lambda result: result.met)
-    rows = [*content.series, *ranked[:_MOST_ROWS]]
-    more = len(ranked) - _MOST_ROWS
-    note = f"<p>and {report.counted(more, 'more case')}: <code>frame()</code> has all</p>" if more > 0 else ""
-    return f"<p>{escape(content.tally)}</p>{report.html_table(Table(columns, rows)) if rows else ''}{note}"
+    cases, series = report.explained_cases_table(content), report.comparison_table(content.series)
+    few = replace(cases, rows=list(cases.rows)[:_MOST_ROWS])
+    tables = "".join(report.html_table(table) for table in (series, few) if table.rows)
+    more = len(cases.rows) - len(few.rows)
+    note = f"<p>and {report.counted(more, 'more case')}: <code>frame()</code> has all</p>" if more else ""
+    return f"<p>{escape(content.tally)}</p>{tables}{note}"
 
 
 _SHOWN = 10
@@ -153,7 +145,7 @@ class Results(Sequence[evaluation.CaseResult]):
     @property
     def met(self) -> bool:
         """Whether every case and every series came out as expected."""
-        return all(each.met for each in self) and all(each.met for each in self.series)
+        return all(case.met for case in self) and all(one.met for one in self.series)
 
     @property
     def series(self) -> tuple[SeriesResult, ...]:
@@ -190,7 +182,7 @@ class Results(Sequence[evaluation.CaseResult]):
         `summary`, `wheelsets`, `criteria`; where there are such, `repeats`, `requirements`, `series`,
         `series-criteria`, `series-stops`. Raises KeyError for others.
         """
-        tables = report.run_tables(self._content)
+        tables = {table.name: table for table in report.run_tables(self._content)}
         if name not in tables:
             raise KeyError(f"no table {name!r} in this run; {suggestion(name, tables)}")
         return frame_of(tables[name], _INDEX[name])
@@ -219,14 +211,14 @@ class Results(Sequence[evaluation.CaseResult]):
 
         """
         for name in formats:
-            if name not in report.format_names():
-                raise ValueError(f"no format {name!r}; {suggestion(name, report.format_names())}")
+            if name not in report.FORMATS:
+                raise ValueError(f"no format {name!r}; {suggestion(name, report.FORMATS)}")
         recordings = {result.id: self._recorded(result.id) for result in self._content.all_results}
-        kept = {name: samples for name, samples in recordings.items() if samples is not None}
+        there = {name: samples for name, samples in recordings.items() if samples is not None}
         content = self._content
-        if report.draws_stops(formats) and not content.traces:
-            content = runs.with_traces(content, self._cases, kept, self._every)
-        return runs.publish_run(content, kept, Path(output), formats).place
+        if not report.DRAWING.isdisjoint(formats) and not content.traces:
+            content = runs.with_traces(content, self._cases, there, self._every)
+        return runs.publish_run(content, there, Path(output), formats).place
 
     def _recorded(self, case: str) -> Recording | None:
         try:

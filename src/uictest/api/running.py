@@ -78,8 +78,8 @@ def run(
     """
     request, threads = recording_request(record, rate), thread_count(jobs)
     texts, folders, seed = override_texts(set, repeat), as_paths(trust), checked_seed(seed)
-    found = _found(what, texts, seed, folders)
-    chosen, of_series = selected(found.cases, found.series, select, tag)
+    loaded = _loaded(what, texts, seed, folders)
+    chosen, of_series = selected(loaded.cases, loaded.series, select, tag)
     options = {
         "--set": texts,
         "--seed": seed,
@@ -91,14 +91,14 @@ def run(
         "--validated": validated,
         "-o": output,
     }
-    arguments = command_words([*found.words, *(["--strict"] if strict else [])], options)
+    arguments = command_words([*loaded.words, *(["--strict"] if strict else [])], options)
     settings = campaign.RunSettings(threads, request, strict=strict)
     validation = None if validated is None else Path(validated)
     batch = runs.batch_of(chosen, of_series, arguments, seed, settings, validated=validation)
     return _in_memory(batch) if output is None else _published(batch, Path(output))
 
 
-class _Found(NamedTuple):
+class _Loaded(NamedTuple):
     """Cases and series, and the words of a command line that runs them."""
 
     cases: Sequence[scenario.Case]
@@ -106,32 +106,26 @@ class _Found(NamedTuple):
     words: Sequence[str]
 
 
-def _found(what: What | None, texts: Sequence[str], seed: int | None, trusted: Sequence[Path]) -> _Found:
+def _loaded(what: What | None, texts: Sequence[str], seed: int | None, trusted: Sequence[Path]) -> _Loaded:
     """Return what there is to run. Raises ValueError, ScenarioErrors."""
     sources = [what] if isinstance(what, str | PathLike | scenario.Case) else list(what or ())
     if what is not None and not sources:
         raise ValueError("nothing to run: name files or give cases")
-    names = [each for each in sources if not isinstance(each, scenario.Case)]
-    cases = [each for each in sources if isinstance(each, scenario.Case)]
+    names = [source for source in sources if not isinstance(source, scenario.Case)]
+    cases = [source for source in sources if isinstance(source, scenario.Case)]
     if not cases:
-        loaded, planned = runs.load_cases_and_series(as_paths(names), texts, seed, trusted)
-        return _Found(loaded, planned, ["run", *map(str, names)])
+        cases, planned = runs.load_cases_and_series(as_paths(names), texts, seed, trusted)
+        return _Loaded(cases, planned, ["run", *map(str, names)])
     if names:
         raise ValueError("name files or give cases, not both")
     if texts or seed is not None or trusted:
         raise ValueError("set, seed, repeat and trust apply to files: pass them to uictest.load")
-    _require_distinct(cases)
-    files = dict.fromkeys(str(case.path) for case in cases)
-    return _Found(cases, (), [report.CASES_IN_PYTHON, *files])
-
-
-def _require_distinct(cases: Sequence[scenario.Case]) -> None:
-    """Raise ValueError where two cases have the same id."""
-    seen: dict[str, Path] = {}
+    paths: dict[str, Path] = {}
     for case in cases:
-        if case.id in seen:
-            raise ValueError(f"two cases are called {case.id!r}, of {seen[case.id]} and {case.path}")
-        seen[case.id] = case.path
+        if case.id in paths:
+            raise ValueError(f"two cases are called {case.id!r}, of {paths[case.id]} and {case.path}")
+        paths[case.id] = case.path
+    return _Loaded(cases, (), [report.CASES_IN_PYTHON, *dict.fromkeys(map(str, paths.values()))])
 
 
 def _in_memory(batch: runs.Batch) -> Results:

@@ -30,9 +30,9 @@ def select_by_options(
     Raises typer.BadParameter for a malformed expression.
     """
     with malformed("-k", expression):
-        found = campaign.selected(among, expression)
+        chosen = campaign.selected(among, expression)
     with malformed("-m", tag):
-        return campaign.selected(found, tag=tag)
+        return campaign.selected(chosen, tag=tag)
 
 
 def drawn_first(
@@ -62,68 +62,59 @@ def malformed(option: str, text: str | None) -> Iterator[None]:
 
 def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> str:
     """Return the ids, one per line; if `described`, each with title and tags, separated by tabs."""
-    return "\n".join(_described(case) if described else printable(case.id) for case in cases)
-
-
-def case_table(cases: Sequence[scenario.Case], width: int) -> Iterator[str]:
-    """Yield ids, titles and tags as a table in lines of at most so many characters."""
-    return table_lines(Table(_CASES, cases, more="--format json has them"), width)
-
-
-def _described(case: scenario.Case) -> str:
-    return "\t".join(printable(text) for text in (case.id, case.scenario.title, " ".join(case.scenario.tags)))
-
-
-def cases_json(cases: Sequence[scenario.Case]) -> str:
-    """Return ids, files, titles, tags, expectations and swept values of cases as a JSON array."""
-    return json.dumps([_description(case) for case in cases], indent=2)
-
-
-def _description(case: scenario.Case) -> dict[str, Any]:
-    return {
-        "id": case.id,
-        "scenario": case.path.as_posix(),
-        "title": case.scenario.title,
-        "tags": list(case.scenario.tags),
-        "expect": case.scenario.expect.form(),
-        "parameters": dict(case.parameters),
-    }
+    return "\n".join(
+        _line(case.id, case.scenario.title, case.scenario.tags, described=described) for case in cases
+    )
 
 
 def series_lines(selected: Sequence[series.Series], *, described: bool = False) -> str:
     """Return the ids, one per line, and below each the ids of its cases; if `described`, with titles."""
-    return "\n".join(line for each in selected for line in _lines(each, described=described))
+    lines = []
+    for planned in selected:
+        lines.append(_line(planned.id, planned.file.title, planned.file.tags, described=described))
+        for stop in planned.stops:
+            repeat = stop.case.scenario.repeat
+            times = f" x {repeat}" if repeat > 1 else ""
+            lines.append(f"  {stop.role} {printable(stop.case.id)}{times}")
+    return "\n".join(lines)
 
 
-def _lines(each: series.Series, *, described: bool) -> Iterator[str]:
-    about = (each.id, each.file.title, " ".join(each.file.tags)) if described else (each.id,)
-    yield "\t".join(map(printable, about))
-    for stop in each.stops:
-        repeat = stop.case.scenario.repeat
-        times = f" x {repeat}" if repeat > 1 else ""
-        yield f"  {stop.role} {printable(stop.case.id)}{times}"
+def _line(name: str, title: str, tags: Sequence[str], *, described: bool) -> str:
+    texts = (name, title, " ".join(tags)) if described else (name,)
+    return "\t".join(map(printable, texts))
 
 
-def series_json(selected: Sequence[series.Series]) -> str:
-    """Return ids, files, titles, tags and cases of series as a JSON array."""
-    return json.dumps([_description_of_series(each) for each in selected], indent=2)
+def case_table(cases: Sequence[scenario.Case], width: int) -> Iterator[str]:
+    """Yield ids, titles and tags as a table in lines of at most so many characters."""
+    return table_lines(Table(_CASES, cases, all_in="--format json"), width)
 
 
-def joined_json(*arrays: str) -> str:
-    """Return JSON arrays as one."""
-    return json.dumps([item for array in arrays for item in json.loads(array)], indent=2)
-
-
-def _description_of_series(each: series.Series) -> dict[str, object]:
-    return {
-        "id": each.id,
-        "series": each.path.as_posix(),
-        "title": each.file.title,
-        "tags": list(each.file.tags),
-        "expect": each.file.expect.form(),
-        "parameters": dict(each.parameters),
-        "stops": [
-            {"role": stop.role, "id": stop.case.id, "repeat": stop.case.scenario.repeat}
-            for stop in each.stops
-        ],
-    }
+def selection_json(cases: Sequence[scenario.Case], selected: Sequence[series.Series]) -> str:
+    """Return ids, files, titles, tags, expectations and values of cases, then of series, as a JSON array."""
+    described: list[dict[str, Any]] = [
+        {
+            "id": case.id,
+            "scenario": case.path.as_posix(),
+            "title": case.scenario.title,
+            "tags": list(case.scenario.tags),
+            "expect": case.scenario.expect.form(),
+            "parameters": dict(case.parameters),
+        }
+        for case in cases
+    ]
+    described += [
+        {
+            "id": planned.id,
+            "series": planned.path.as_posix(),
+            "title": planned.file.title,
+            "tags": list(planned.file.tags),
+            "expect": planned.file.expect.form(),
+            "parameters": dict(planned.parameters),
+            "stops": [
+                {"role": stop.role, "id": stop.case.id, "repeat": stop.case.scenario.repeat}
+                for stop in planned.stops
+            ],
+        }
+        for planned in selected
+    ]
+    return json.dumps(described, indent=2)

@@ -41,7 +41,7 @@ def scope_of(
 ) -> comparison.Scope:
     """Return what a run selects; `searched` are paths of which it takes every case and series."""
     return comparison.Scope(
-        frozenset([*(case.id for case in selected), *(each.id for each in planned)]),
+        frozenset([*(case.id for case in selected), *(one.id for one in planned)]),
         [yaml.display_name(path) for path in searched],
     )
 
@@ -66,51 +66,40 @@ def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison
 
 
 def accept_or_compare(
-    choice: BaselineChoice,
-    accepted: comparison.Baseline | None,
-    published: runs.Published,
-    *,
-    quiet: bool,
+    choice: BaselineChoice, accepted: comparison.Baseline | None, published: runs.Published, *, quiet: bool
 ) -> ExitCode:
-    """Accept a run as the baseline, or show the comparison; do nothing without a baseline.
+    """Accept a run as the baseline, or show the comparison on stderr; do nothing without a baseline.
 
-    Returns MISSED where the run differs, else MET. Raises OSError.
+    If `quiet`, a run that agrees shows nothing. Returns MISSED where it differs, else MET. Raises OSError.
     """
     if choice.folder is None:
         return ExitCode.MET
-    if not choice.accepting:
-        return _show_comparison(published.content.baseline, quiet=quiet)
-    if published.interrupted:
+    if choice.accepting and published.interrupted:
         message(f"uictest: interrupted: {choice.folder} is unchanged")
-    else:
-        _accept(published, choice.folder, accepted)
-    return ExitCode.MET
-
-
-def _show_comparison(baseline: report.BaselineComparison | None, *, quiet: bool) -> ExitCode:
-    """Show the comparison with the baseline on stderr; if `quiet`, only if the run differs.
-
-    Returns MISSED where it differs, else MET.
-    """
-    if baseline is None or (quiet and baseline.agrees):
         return ExitCode.MET
-    for note in baseline.notes:
+    if choice.accepting:
+        _accept(published, choice.folder, accepted)
+        return ExitCode.MET
+    compared = published.content.baseline
+    if compared is None or (quiet and compared.agrees):
+        return ExitCode.MET
+    for note in compared.notes:
         message(f"note: {note}")
-    for sentence in report.not_compared_sentences(baseline):
+    for sentence in report.not_compared_sentences(compared):
         message(f"uictest: {sentence}")
-    message(f"uictest: {report.baseline_summary(baseline)}")
-    return ExitCode.MET if baseline.agrees else ExitCode.MISSED
+    message(f"uictest: {report.baseline_summary(compared)}")
+    return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 
 def _accept(run: runs.Published, folder: Path, baseline: comparison.Baseline | None) -> None:
     """Make the results of a run the baseline, and keep cases that it did not select. Raises OSError."""
-    document = comparison.accepted_document(json.loads(run.document), baseline)
+    document = comparison.accepted_document(json.loads(run.publication.texts[report.RESULTS]), baseline)
     files.make_folder(folder)
     for name, content in (("manifest.json", document["manifest"]), (report.RESULTS, document)):
         files.write(folder, name, evaluation.to_json(content))
     history.write_entry(folder, report.run_content(document, folder.resolve().name))
-    kept = len(document["cases"]) - len(run.content.results)
-    others = f"; {report.counted(kept, 'case')} that did not run are unchanged" if kept else ""
+    unchanged = len(document["cases"]) - len(run.content.results)
+    others = f"; {report.counted(unchanged, 'case')} that did not run are unchanged" if unchanged else ""
     message(f"uictest: {folder} now holds the results of {run.place.name}{others}")
 
 
@@ -125,7 +114,17 @@ def failed_last(
     if run is None:
         message(f"uictest: no earlier run in {output}: all cases are selected")
         return list(cases), list(planned)
-    not_met = _not_met(run)
+    path = run / report.RESULTS
+    try:
+        content = report.run_content(json.loads(path.read_text(encoding="utf-8")), run.name)
+    except (OSError, ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
+        raise runs.InvalidInputError(f"{path} cannot be read as the results of a run: {error}") from error
+    not_met = frozenset(
+        [
+            *(case.id for case in content.results if not case.met),
+            *(one.id for one in content.series if not one.met),
+        ]
+    )
     selected = campaign.by_id(cases, not_met), campaign.by_id(planned, not_met)
     if any(selected):
         return selected
@@ -138,13 +137,13 @@ def _newest_run(output: Path) -> Path | None:
     latest = files.latest_run(output)
     if latest is None or _command(latest) not in history.OF_RECORDINGS:
         return latest
-    manifests = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)
+
+    def start(manifest: Path) -> tuple[str, int]:
+        """Return the second in the name of a run, then the time of its file."""
+        return manifest.parent.name.partition("-")[0], manifest.stat().st_mtime_ns
+
+    manifests = sorted(output.glob("*/manifest.json"), key=start, reverse=True)
     return next((file.parent for file in manifests if _command(file.parent) == "run"), None)
-
-
-def _age(manifest: Path) -> tuple[str, int]:
-    """Return the key that sorts runs by their start: the second in the name, then the time of the file."""
-    return manifest.parent.name.partition("-")[0], manifest.stat().st_mtime_ns
 
 
 def _command(run: Path) -> str:
@@ -153,16 +152,6 @@ def _command(run: Path) -> str:
         return str(json.loads((run / "manifest.json").read_bytes())["command"][1])
     except (OSError, ValueError, RecursionError, LookupError, TypeError):
         return ""
-
-
-def _not_met(run: Path) -> frozenset[str]:
-    path = run / report.RESULTS
-    try:
-        content = report.run_content(json.loads(path.read_text(encoding="utf-8")), run.name)
-    except (OSError, ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
-        raise runs.InvalidInputError(f"{path} cannot be read as the results of a run: {error}") from error
-    missed = [result.id for result in content.results if not result.met]
-    return frozenset([*missed, *(result.id for result in content.series if not result.met)])
 
 
 def named_paths(*paths: Path | None) -> list[Path]:
@@ -183,19 +172,16 @@ def keep_newest(
     if code not in (ExitCode.MET, ExitCode.MISSED):
         message("uictest: --keep: nothing is removed, as this run did not end as planned")
         return
+    removed = False
     try:
-        fates = [_shown(each, keep) for each in history.prune(run.parent, kind, keep, run.name, referred)]
+        for pruned in history.prune(run.parent, kind, keep, run.name, referred):
+            if pruned.kept_because:
+                message(f"uictest: --keep {keep}: {pruned.name} stays: {pruned.kept_because}")
+            else:
+                message(f"uictest: --keep {keep}: removed {pruned.name}, older than the newest {keep}")
+                removed = True
     except OSError as error:
         message(f"uictest: --keep: {error.filename or run.parent}: {error.strerror or error}")
         return
-    if any(fates) and (problem := history.refresh_index(run.parent)):
+    if removed and (problem := history.refresh_index(run.parent)):
         message(f"uictest: {problem}")
-
-
-def _shown(fate: history.Pruned, keep: int) -> bool:
-    """Say what became of a run; return whether it was removed."""
-    if fate.kept_because:
-        message(f"uictest: --keep {keep}: {fate.name} stays: {fate.kept_because}")
-    else:
-        message(f"uictest: --keep {keep}: removed {fate.name}, older than the newest {keep}")
-    return not fate.kept_because

@@ -7,16 +7,16 @@ import os
 import traceback
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Final, TypeVar
+from typing import Annotated, Any, Final, NamedTuple, TypeAlias, TypeVar
 
 import typer
 from typer.core import TyperGroup
 
-from uictest import __version__, runs
-from uictest.cli.options import TRUSTED_FOLDERS, option
+from uictest import __version__, report, runs
+from uictest.cli.options import JUNIT, TRUSTED_FOLDERS, is_replaceable, option
 from uictest.cli.output import ExitCode, data, lost_data, message, use_safe_encoding
-from uictest.cli.unfinished import Ending, UnfinishedJUnit
 from uictest.core import files
 from uictest.plans import scenario
 
@@ -35,7 +35,7 @@ def command(group: typer.Typer, name: str) -> Callable[[Function], Function]:
 def first_sentence(text: str) -> str:
     """Return the first sentence of a help text on one line; typer would cut it at the end of a line."""
     words = text.split()
-    end = next((place for place, word in enumerate(words, start=1) if word.endswith(".")), len(words))
+    end = next((count for count, word in enumerate(words, start=1) if word.endswith(".")), len(words))
     return " ".join(words[:end])
 
 
@@ -52,6 +52,8 @@ _SECTIONS: Final = {
 }
 """Heading in `--help` -> the commands below it."""
 _NAMES: Final = tuple(name for names in _SECTIONS.values() for name in names)
+_MODULES: Final = {"export-rig": "export_fmu", "export-controller": "export_fmu"}
+"""Command -> its module, where that is called otherwise."""
 _FUNCTIONS: Final = {"list": "list_cases", "open": "open_page"}
 """Command -> its function in the module of the command, where that is called otherwise."""
 _GROUPS: Final = ("identify", "library", "controller")
@@ -86,10 +88,10 @@ def application(first: str | None = None) -> typer.Typer:
     )
     app.callback(invoke_without_command=True)(_main)
     for name in (first,) if first in _NAMES else _NAMES:
-        own = name.replace("-", "_")
-        module = import_module(f"uictest.cli.commands.{own}")
+        function = name.replace("-", "_")
+        module = import_module(f"uictest.cli.commands.{_MODULES.get(name, function)}")
         if name not in _GROUPS:
-            command(app, name)(getattr(module, _FUNCTIONS.get(name, own)))
+            command(app, name)(getattr(module, _FUNCTIONS.get(name, function)))
         else:
             group = getattr(module, name)
             group.callback(invoke_without_command=True)(_show_help_alone)
@@ -113,8 +115,7 @@ def _show_version(requested: bool) -> None:
 def _main(
     context: typer.Context,
     version: Annotated[
-        bool,
-        option("--version", "Show the version and exit.", callback=_show_version, is_eager=True),
+        bool, option("--version", "Show the version and exit.", callback=_show_version, is_eager=True)
     ] = False,
 ) -> None:
     """Batch test runner for a simulated railway brake rig: scenarios in, verdicts and reports out."""
@@ -178,7 +179,8 @@ def _ending(arguments: tuple[str, ...]) -> Ending:
         message(str(error))
         return Ending(ExitCode.ERROR if error.traces else ExitCode.USAGE, error.diagnostics)
     except runs.InvalidInputError as error:
-        texts = [f"{text}{_options(error.arguments)}" for text in error.messages]
+        options = f" ({', '.join(_OPTIONS[name] for name in error.arguments)})" if error.arguments else ""
+        texts = [f"{text}{options}" for text in error.messages]
         message("\n".join(f"uictest: {text}" for text in texts))
         return Ending(ExitCode.USAGE, texts)
     except files.WriteError as error:
@@ -223,15 +225,10 @@ def _is_of_argument(error: Exception, arguments: Sequence[str]) -> bool:
         return any("\0" in text for text in texts) or ("" in texts and "an empty name" in str(error))
     if not isinstance(error, OSError) or error.errno not in _OF_PATHS or not error.filename:
         return False
-    place = Path(os.path.abspath(os.fsdecode(error.filename)))  # noqa: PTH100 - links stay
+    failed = Path(os.path.abspath(os.fsdecode(error.filename)))  # noqa: PTH100 - links stay
     named = (Path(os.path.abspath(text)) for text in texts if "\0" not in text)  # noqa: PTH100
     inside = error.errno != errno.ENOENT
-    return any(each.is_relative_to(place) or (inside and place.is_relative_to(each)) for each in named)
-
-
-def _options(arguments: Sequence[str]) -> str:
-    """Return the options that set some arguments in parentheses; nothing for none."""
-    return f" ({', '.join(_OPTIONS[name] for name in arguments)})" if arguments else ""
+    return any(path.is_relative_to(failed) or (inside and failed.is_relative_to(path)) for path in named)
 
 
 def _call(arguments: tuple[str, ...]) -> ExitCode:
@@ -246,3 +243,61 @@ def _call(arguments: tuple[str, ...]) -> ExitCode:
 def _reason(error: OSError) -> str:
     reason = error.strerror or str(error) or type(error).__name__
     return f"{error.filename}: {reason}" if error.filename is not None else reason
+
+
+Reason: TypeAlias = "scenario.Diagnostic | str"
+"""Why a command ended: an error in a file, or a sentence."""
+
+
+class Ending(NamedTuple):
+    """How a command ended; if by an exception: why, and the option or the file that it was about."""
+
+    code: ExitCode
+    reasons: Sequence[Reason] = ()
+    about: str | None = None
+
+
+class UnfinishedJUnit:
+    """The file of `--junitxml`, if the command line asks for one."""
+
+    def __init__(self, arguments: Sequence[str]) -> None:
+        given = [after for text, after in pairwise(arguments) if text == JUNIT]
+        given += [text.partition("=")[2] for text in arguments if text.startswith(f"{JUNIT}=")]
+        self._path = Path(given[-1]) if given else None
+        self._before = self._path and _identity(self._path)
+        self._command = f"uictest {next(iter(arguments), '')}"
+
+    def write(self, ending: Ending) -> None:
+        """Write why a command ended, unless it has written the file, or ended because of it."""
+        path, code = self._path, ending.code
+        if path is None or ending.about in (JUNIT, str(path)) or code is ExitCode.MET:
+            return
+        reasons = ending.reasons or [f"exit code {code:d}: {code.name.lower().replace('_', ' ')}"]
+        try:
+            if _identity(path) == self._before and is_replaceable(path):
+                files.make_folder(path.parent)  # that of -o, which nothing has made yet
+                files.write_to(path, _document(reasons, self._command))
+        except (OSError, ValueError) as error:
+            message(f"uictest: {error}")
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    try:
+        status = os.stat(path)  # noqa: PTH116 - a name may be too long, or hold a null
+    except (OSError, ValueError):
+        return None
+    return status.st_ino, status.st_mtime_ns
+
+
+def _document(reasons: Sequence[Reason], command: str) -> str:
+    """Return a JUnit document with a testcase for each file with errors, and one for all else."""
+    from uictest.core.document import Suite, Testcase, class_name  # which few commands need
+
+    lines: dict[str, list[str]] = {}
+    for reason in reasons:
+        lines.setdefault("" if isinstance(reason, str) else reason.file, []).extend(str(reason).splitlines())
+    testcases = [
+        Testcase(class_name(file) if Path(file).name else "uictest", file or command, "error", texts)
+        for file, texts in lines.items()
+    ]
+    return report.junit_text([Suite("uictest", testcases)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import codecs
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
@@ -80,8 +80,7 @@ Draw = Annotated[
     ),
 ]
 Tag = Annotated[
-    str | None,
-    option("-m TAG", "Select cases with this tag; combine tags with and, or, not, ( )."),
+    str | None, option("-m TAG", "Select cases with this tag; combine tags with and, or, not, ( ).")
 ]
 Overrides = Annotated[
     list[str] | None,
@@ -182,10 +181,7 @@ CalibratedBy = Annotated[
 ]
 Verbose = Annotated[bool, option("-v --verbose", "More detail.", show_default=False)]
 Quiet = Annotated[bool, option("-q --quiet", "Show only cases that are not as expected.")]
-Output = Annotated[
-    Path,
-    option("-o --output DIR", "Folder for reports; each run gets a folder in it."),
-]
+Output = Annotated[Path, option("-o --output DIR", "Folder for reports; each run gets a folder in it.")]
 KeptRuns = Annotated[
     int | None,
     option(
@@ -193,10 +189,7 @@ KeptRuns = Annotated[
     ),
 ]
 ExitFirst = Annotated[bool, option("-x", "Stop at the first case that is not as expected.")]
-MaxFail = Annotated[
-    int | None,
-    option("--maxfail N", "Stop after N cases that are not as expected.", min=1),
-]
+MaxFail = Annotated[int | None, option("--maxfail N", "Stop after N cases that are not as expected.", min=1)]
 DryRun = Annotated[bool, option("--dry-run", "List the selected cases without running them.")]
 JUNIT: Final = "--junitxml"
 JUnitFile = Annotated[Path | None, option(f"{JUNIT} FILE", "Also write the JUnit XML to FILE.")]
@@ -209,21 +202,17 @@ RunFormat = Annotated[
     ),
 ]
 CheckFormat = Annotated[
-    Format,
-    option("--format", "Output on stdout: text (none), json (the errors), github (annotations)."),
+    Format, option("--format", "Output on stdout: text (none), json (the errors), github (annotations).")
 ]
 ListFormat = Annotated[PlainFormat, option("--format", "Output on stdout: text or json.")]
 RecordingChoice = Annotated[
-    Recorded,
-    option("--record", "Keep recordings of all cases, those not as expected, or none."),
+    Recorded, option("--record", "Keep recordings of all cases, those not as expected, or none.")
 ]
 RecordRate = Annotated[
-    float,
-    option("--record-rate HZ", "Samples per second of a recording.", min=1.0, max=100e3),
+    float, option("--record-rate HZ", "Samples per second of a recording.", min=1.0, max=100e3)
 ]
 Reports = Annotated[
-    str,
-    option("--report FORMATS", f"Reports to write, joined by commas: {', '.join(report.format_names())}."),
+    str, option("--report FORMATS", f"Reports to write, joined by commas: {', '.join(report.FORMATS)}.")
 ]
 ToleranceTexts = Annotated[
     list[str] | None,
@@ -255,9 +244,9 @@ def junit_file(path: Path | None, output: Path) -> Path | None:
     A folder in or above `output` may be missing: the command makes it.
     """
     if path is not None:
-        folder, own = path.absolute().parent, output.absolute()
-        expected = own.is_relative_to(folder) or folder.is_relative_to(own)
-        if not expected or folder.exists():
+        folder, reports = path.absolute().parent, output.absolute()
+        is_made = reports.is_relative_to(folder) or folder.is_relative_to(reports)
+        if not is_made or folder.exists():
             files.require_place(path)
         if not is_replaceable(path):
             text = f"{path} holds no XML: name another file, or remove it"
@@ -273,7 +262,7 @@ def is_replaceable(path: Path) -> bool:
         return file.read(4).removeprefix(codecs.BOM_UTF8)[:1] in (b"", b"<")
 
 
-def report_formats(text: str, option: str, accepted: Sequence[str]) -> list[str]:
+def report_formats(text: str, option: str, accepted: Collection[str]) -> list[str]:
     """Return the formats in a comma list, each once. Raises typer.BadParameter for an unknown one."""
     words = [word.strip() for word in text.split(",") if word.strip()]
     for word in words:

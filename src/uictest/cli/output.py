@@ -13,7 +13,7 @@ from typing import TextIO
 
 from uictest import runs
 from uictest.plans.scenario import Diagnostic
-from uictest.report import printable
+from uictest.report import no_command, printable
 
 
 class ExitCode(IntEnum):
@@ -32,9 +32,9 @@ def of_run(run: runs.Published) -> ExitCode:
     if run.interrupted:
         return ExitCode.INTERRUPTED
     results, series = run.content.results, run.content.series
-    if any(each.outcome == "error" for each in results) or any(each.outcome == "error" for each in series):
+    if "error" in {*(case.outcome for case in results), *(one.outcome for one in series)}:
         return ExitCode.ERROR
-    met = all(each.met for each in results) and all(each.met for each in series)
+    met = all(case.met for case in results) and all(one.met for one in series)
     return ExitCode.MET if met else ExitCode.MISSED
 
 
@@ -87,16 +87,16 @@ def lost_data() -> str:
 
 
 def message(text: str) -> None:
-    """Write a message of one or more lines to stderr, with control characters escaped."""
+    """Write a message of one or more lines to stderr, none of which controls a terminal or a CI service."""
     with contextlib.suppress(OSError):
-        sys.stderr.write("".join(f"{printable(line)}\n" for line in text.split("\n")))
+        sys.stderr.write("".join(f"{no_command(printable(line))}\n" for line in text.split("\n")))
         sys.stderr.flush()
 
 
 def warn_of_implausible(diagnostics: Iterable[Diagnostic]) -> None:
     """Write what of trains is implausible to stderr."""
-    for each in diagnostics:
-        message(str(each._replace(message=f"warning: {each.message}")))
+    for diagnostic in diagnostics:
+        message(str(diagnostic._replace(message=f"warning: {diagnostic.message}")))
 
 
 def use_safe_encoding() -> None:

@@ -8,49 +8,40 @@ import threading
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from uictest import runs
 from uictest.cli.output import coloured, interactive, message
 
-if TYPE_CHECKING:
-    from rich.console import Console
-
-
-HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
-
-
-def error_console() -> Console:
-    """Return the console of stderr."""
-    from rich.console import Console
-
-    in_colour = coloured(sys.stderr)
-    return Console(stderr=True, no_color=not in_colour, color_system="auto" if in_colour else None)
+HEARTBEAT = 30.0
+"""Seconds between two lines where there is no terminal; chosen."""
 
 
 @contextlib.contextmanager
-def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[runs.Advance]:
+def progress(total: int, done: int = 0, *, quiet: bool, unit: str = "cases") -> Iterator[runs.Advance]:
     """Lend a function to call with how many more of `total` cases, or what `unit` says, are finished.
 
-    Its second argument is by how much the total grows.
+    Its second argument is by how much the total grows; `done` were finished before.
     """
     if quiet:
         yield lambda finished, further=0: None
     elif interactive(sys.stderr):
-        with _bar(total) as advance:
+        with _bar(total, done) as advance:
             yield advance
     else:
-        with _heartbeat(total, unit) as advance:
+        with _heartbeat(total, done, unit) as advance:
             yield advance
 
 
 @contextlib.contextmanager
-def _bar(total: int) -> Iterator[runs.Advance]:
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+def _bar(total: int, done: int) -> Iterator[runs.Advance]:
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=error_console(), transient=True) as bar:
-        task = bar.add_task("simulating", total=total)
+    in_colour = coloured(sys.stderr)
+    console = Console(stderr=True, no_color=not in_colour, color_system="auto" if in_colour else None)
+    columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
+        task = bar.add_task("simulating", total=total, completed=done)
 
         def advance(finished: int, further: int = 0, /) -> None:
             nonlocal total
@@ -61,14 +52,16 @@ def _bar(total: int) -> Iterator[runs.Advance]:
 
 
 @contextlib.contextmanager
-def _heartbeat(total: int, unit: str) -> Iterator[runs.Advance]:
-    done = 0
-    ended = threading.Event()
-    started = monotonic()
+def _heartbeat(total: int, done: int, unit: str) -> Iterator[runs.Advance]:
+    """Write a line now and then, also while nothing finishes: a job without output may be ended."""
+    before, started, ended = done, monotonic(), threading.Event()
 
     def beat() -> None:
         while not ended.wait(HEARTBEAT):
-            message(f"uictest: {done} of {total} {unit} after {monotonic() - started:.0f} s")
+            seconds = monotonic() - started
+            rate = (done - before) / seconds
+            remaining = f", {(total - done) / rate:.0f} s left" if rate else ""
+            message(f"uictest: {done} of {total} {unit} after {seconds:.0f} s{remaining}")
 
     def advance(finished: int, further: int = 0, /) -> None:
         nonlocal done, total
@@ -82,64 +75,6 @@ def _heartbeat(total: int, unit: str) -> Iterator[runs.Advance]:
     finally:
         ended.set()
         thread.join()
-
-
-@contextlib.contextmanager
-def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[runs.Advance]:
-    """Lend a function that counts finished cases; `done` of `total` were finished before."""
-    if quiet:
-        yield lambda cases, further=0: None
-    elif interactive(sys.stderr):
-        with _bar_with_rate(total, done) as advance:
-            yield advance
-    else:
-        yield _SweepHeartbeat(total, done).advance
-
-
-@contextlib.contextmanager
-def _bar_with_rate(total: int, done: int) -> Iterator[runs.Advance]:
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        ProgressColumn,
-        Task,
-        TimeRemainingColumn,
-    )
-    from rich.text import Text
-
-    class Rate(ProgressColumn):
-        def render(self, task: Task) -> Text:
-            return Text("-" if task.speed is None else f"{task.speed:.0f} cases/s")
-
-    columns = (BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
-    console = error_console()
-    with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
-        task = bar.add_task("simulating", total=total, completed=done)
-        yield lambda cases, further=0: bar.advance(task, cases)
-
-
-class _SweepHeartbeat:
-    """A line when a chunk is finished, unless the last line is recent."""
-
-    def __init__(self, total: int, done: int) -> None:
-        self._total, self._before, self._done = total, done, 0
-        self._started = self._last_line = monotonic()
-
-    def advance(self, cases: int, further: int = 0, /) -> None:
-        """Count finished cases, and print a line if the last one is old enough."""
-        self._total += further
-        self._done += cases
-        now = monotonic()
-        if now - self._last_line >= HEARTBEAT:
-            self._last_line = now
-            message(self._line(now - self._started))
-
-    def _line(self, seconds: float) -> str:
-        rate = self._done / seconds
-        finished = self._before + self._done
-        remaining = (self._total - finished) / rate
-        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"
 
 
 class TerminalObserver(runs.Observer):
@@ -159,4 +94,4 @@ class TerminalObserver(runs.Observer):
         self, count: int, finished: int = 0, unit: str = "cases"
     ) -> AbstractContextManager[runs.Advance]:
         """Show the progress of the stops."""
-        return progress(count, quiet=self.quiet, unit=unit)
+        return progress(count, finished, quiet=self.quiet, unit=unit)

@@ -10,14 +10,14 @@ from typing import Annotated
 from uictest import runs
 from uictest.cli.cases import malformed
 from uictest.cli.options import argument, option, rejected
+from uictest.cli.output import message
 from uictest.plans import scenario
 from uictest.recorded import field_data
 from uictest.rig import bench
 
 Files = Annotated[list[Path], argument("FILE...", "Recordings.", show_default=False)]
 MapName = Annotated[
-    str,
-    option("--map NAME|FILE", "Channel map: a preset (uictest, common-names) or a YAML file."),
+    str, option("--map NAME|FILE", "Channel map: a preset (uictest, common-names) or a YAML file.")
 ]
 Trigger = Annotated[
     str | None,
@@ -48,6 +48,21 @@ def one_case(
         return runs.only_case(path, expression, overrides, trusted)
 
 
+def case_of_stop(
+    scenario: Path | None, expression: str | None, statements: Sequence[str], trusted: Sequence[Path] | None
+) -> runs.CaseOfStop:
+    """Return the function that makes the case of a recording. Raises InvalidInputError."""
+    case = None if scenario is None else one_case(scenario, expression, statements, trusted)
+    if case is not None and case.scenario.repeat > 1:
+        message(f"note: {case.id}: `repeat` plays no part: a recording is one stop")
+    return runs.case_of_stop(
+        case,
+        statements,
+        trusted,
+        lambda keys: f"--scenario FILE, or with {' '.join(f'--set {key}=...' for key in keys)}",
+    )
+
+
 def rig_of_record(
     record: Path, stated: Mapping[str, str], overrides: Sequence[str], trusted: Sequence[Path]
 ) -> scenario.Case:
@@ -59,8 +74,8 @@ def rig_of_record(
     case = bench.trace_recipe(record, "", None, overrides, None, trusted).case
     assumed = scenario.rig_as_built(case.scenario)
     of_air = [key for key in stated if key in assumed and key.startswith("brake.system.")]
-    own = bench.trace_recipe(record, "", None, [f"{key}={stated[key]}" for key in of_air]).case
-    values = scenario.rig_as_built(own.scenario)
+    recorded = bench.trace_recipe(record, "", None, [f"{key}={stated[key]}" for key in of_air]).case
+    values = scenario.rig_as_built(recorded.scenario)
     other = [key for key in of_air if values[key] != assumed[key]]
     if other:
         listed = "; ".join(f"{key} {values[key].text}, not {assumed[key].text}" for key in other)

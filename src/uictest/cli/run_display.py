@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
 from uictest import report, runs
 from uictest.cli.options import Format
-from uictest.cli.output import append_summary, coloured, data, interactive, message
+from uictest.cli.output import append_summary, coloured, data, interactive, message, terminal_width
 from uictest.cli.progress import TerminalObserver
 from uictest.core import files
 from uictest.judging import evaluation, series
 from uictest.running import campaign
-
-_ANSI = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
-_ANSI_END = "\x1b[0m"
 
 
 class Display(TerminalObserver):
@@ -63,7 +61,7 @@ class Lines(Display):
         """Show a series, and unless quiet its criteria and the stops that count."""
         if self.quiet and result.met:
             return
-        self._show(report.series_word(result), report.series_line(result))
+        self._show(report.result_word(result), report.series_line(result))
         for line in (*report.series_lines(result), *report.firmness_lines(result)):
             data(line)
 
@@ -77,8 +75,8 @@ class Lines(Display):
 
     def _show(self, word: str, line: str) -> None:
         first = report.line_word(word)
-        colour = _ANSI[report.tone(word)]
-        data(f"{colour}{first}{_ANSI_END}{line.removeprefix(first)}" if self._in_colour else line)
+        tone = report.tone(word) if self._in_colour else None
+        data(f"{report.coloured_text(first, tone)}{line.removeprefix(first)}")
 
 
 class Annotations(Lines):
@@ -116,39 +114,36 @@ class VerdictTable(Display):
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the table and the explanations."""
-        from rich.console import Console
+        for line in self._lines(content):
+            data(line)
 
-        console = Console(
-            color_system="auto" if self._in_colour else None, force_terminal=self._in_colour, highlight=False
-        )
-        shown = _shown(content, quiet=self.quiet)
-        if shown:
-            table, not_shown = report.verdict_table(shown, content.word, console.width)
-            console.print(table)
-            if not_shown:
-                console.print(not_shown, markup=False, style="dim")
-        for result in shown:
+    def _lines(self, content: report.RunContent) -> Iterator[str]:
+        width = terminal_width(sys.stdout)
+        results = _shown(content, quiet=self.quiet)
+        if results:
+            table = replace(report.cases_table(content), rows=results)
+            yield from report.table_lines(table, width, coloured=self._in_colour)
+        for result in results:
             if self.verbose or not content.passes(result) or result.outcome in report.EXPLAINED:
-                console.print(report.explanation_text(content, result, every_criterion=self.verbose))
-            # The explanation of a case that is not met for it has said how firm it is.
-            told = result.lacks_firmness and not self.verbose
-            firmness = () if told else report.firmness_lines(result)
-            for line in (*report.domain_lines(result), *firmness):
-                console.print(line, markup=False)
-        judged = [each for each in content.series if not (self.quiet and each.met)]
-        for line in report.series_table(judged, console.width) if judged else ():
-            console.print(line, markup=False)
-        for each in judged:
-            for line in report.firmness_lines(each):
-                console.print(line, markup=False)
-        close = report.close_lines(() if self.quiet else shown, judged)
+                yield from report.explanation_lines(
+                    content, result, every_criterion=self.verbose, coloured=self._in_colour
+                )
+            yield from report.domain_lines(result)
+            # The explanation of a case that is not met for lack of firmness has said how firm it is.
+            if self.verbose or not result.lacks_firmness:
+                yield from report.firmness_lines(result)
+        judged = [result for result in content.series if not (self.quiet and result.met)]
+        if judged:
+            yield from report.series_lines_of_terminal(judged, width)
+        for of_series in judged:
+            yield from report.firmness_lines(of_series)
+        close = report.close_lines(() if self.quiet else results, judged)
         if close.sentences:
-            console.print("\n  ".join((f"{close.title}:", *close.sentences)), markup=False)
-        for line in report.missing_lines(content.baseline) if content.baseline else ():
-            console.print(line, markup=False)
+            yield f"{close.title}:"
+            yield from (f"  {line}" for line in close.sentences)
+        yield from report.missing_lines(content.baseline) if content.baseline else ()
         if self.verbose:
-            for line in _common_lines(shown):
-                console.print(line, markup=False)
+            yield from _common_lines(results)
 
 
 def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
@@ -166,20 +161,12 @@ def chosen_display(shown: Format, *, quiet: bool, verbose: bool) -> Display:
 
 
 def _shown(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
-    return [result for result in content.results if not quiet or _says_something(content, result)]
-
-
-def _says_something(content: report.RunContent, result: evaluation.CaseResult) -> bool:
-    """Return whether a case is shown with --quiet: it is not as expected, or misses what is only allowed."""
-    return bool(result.allowed) or not content.passes(result)
+    """Return the cases; if `quiet`, those that are not as expected or miss what is only allowed."""
+    return [result for result in content.results if not quiet or result.allowed or not content.passes(result)]
 
 
 def publish_and_show(
-    batch: runs.Batch,
-    output: Path,
-    formats: Sequence[str],
-    junit: Path | None,
-    display: Display,
+    batch: runs.Batch, output: Path, formats: Sequence[str], junit: Path | None, display: Display
 ) -> runs.Published | None:
     """Run a batch, publish its reports and show them; after an interruption, those of the finished cases.
 
@@ -192,22 +179,19 @@ def publish_and_show(
         message("uictest: interrupted before the first case was finished; there is nothing to report")
         return None
     content = published.content
-    append_summary(lambda: report.append_step_summary(content))
+    append_summary(lambda: report.append_step_summary(published.publication))
     if junit is not None:
-        files.write_to(junit, report.junit_text(report.suites_of_run(content)))
-    display.end(content, published.document)
+        files.write_to(junit, published.publication.junit())
+    display.end(content, published.publication.texts[report.RESULTS])
     if published.index_problem:
         message(f"uictest: {published.index_problem}")
-    if not display.quiet:
-        _sum_up(batch, published, perf_counter() - started)
-    return published
-
-
-def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:
-    content = published.content
+    if display.quiet:
+        return published
+    for notice in report.notices(content.all_results):
+        message(f"uictest: {notice}")
     ended = "interrupted, " if published.interrupted else ""
     remaining = len(batch.all_cases) - len(content.all_results)
     not_run = f", {remaining} not run" if remaining else ""
-    for notice in report.notices(content.all_results):
-        message(f"uictest: {notice}")
+    seconds = perf_counter() - started
     message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {published.place}")
+    return published

@@ -3,7 +3,7 @@
 Once per controller cycle the rig reads its speed sensors into ``wheelset.measured_speed`` (m/s) and
 ``wheelset.speed_valid`` (0 where a sensor reports a fault) and calls the controller, which sets
 ``wheelset.valve_command`` of each of the four wheelsets to FILL, HOLD or VENT
-(:mod:`uictest.core.physics.valves`). A controller sees these two, its own memory and its own parameters,
+(:mod:`uictest.core.physics.air`). A controller sees these two, its own memory and its own parameters,
 and nothing else of the rig.
 
 A built-in controller is one module in :mod:`uictest.controllers.built_in`, found there without a further

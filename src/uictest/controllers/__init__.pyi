@@ -1,20 +1,20 @@
 from .adapters import open_controller as open_controller
-from .adapters.errors import ControllerError as ControllerError, OnlyOneError as OnlyOneError
 from .adapters.instance import (
     CalledInstance as CalledInstance,
+    ControllerError as ControllerError,
     ControllerInstance as ControllerInstance,
+    OnlyOneError as OnlyOneError,
     ResponseTimes as ResponseTimes,
     read_inputs as read_inputs,
     stated_declarations as stated_declarations,
     write_outputs as write_outputs,
 )
-from .adapters.turns import interrupt_turns as interrupt_turns
+from .adapters.socket import interrupt_turns as interrupt_turns
 from .contract import (
     CONTROLLERS as CONTROLLERS,
     DEFAULT as DEFAULT,
     BrakedTrain as BrakedTrain,
     BrakedWheelset as BrakedWheelset,
-    Conflict as Conflict,
     ControlledWheelset as ControlledWheelset,
     Controller as Controller,
     ControllerCycle as ControllerCycle,

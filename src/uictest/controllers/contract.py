@@ -148,7 +148,6 @@ class Controller(NamedTuple):
 
 
 def _built_in() -> dict[str, Controller]:
-    """Return the controller of every module in :mod:`uictest.controllers.built_in` by its name."""
     modules = [
         import_module(f"{built_in.__name__}.{module.name}")
         for module in pkgutil.iter_modules(built_in.__path__)

@@ -76,13 +76,13 @@ def _problems_of_value(name: str, declared: Declaration, value: Any) -> Iterator
         hint = f"write a bare number{unit and ' in'}{unit}" if expected == "a number" else ""
         yield Problem(name, f"expected {expected}, found {_kind(value)} ({written})", hint)
         return
-    for each in value if isinstance(value, list | tuple) else (value,):
-        if isinstance(each, float) and not math.isfinite(each):
-            yield Problem(name, f"{each} is no finite number", "accepted: finite numbers")
+    for element in value if isinstance(value, list | tuple) else (value,):
+        if isinstance(element, float) and not math.isfinite(element):
+            yield Problem(name, f"{element} is no finite number", "accepted: finite numbers")
         elif declared.range is not None:
             low, high = declared.range
-            if _kind(each) != "a number" or not low <= each <= high:
-                yield Problem(name, f"{each} is out of range", f"accepted: {low:g} to {high:g}{unit}")
+            if _kind(element) != "a number" or not low <= element <= high:
+                yield Problem(name, f"{element} is out of range", f"accepted: {low:g} to {high:g}{unit}")
 
 
 def _kind(value: Any) -> str:
@@ -92,19 +92,14 @@ def _kind(value: Any) -> str:
 
 def nothing_declared(given: Mapping[str, Any]) -> Problem:
     """Return the problem of parameters for a controller that declares none: the lines to write."""
-    names = ", ".join(given)
-    lines = ", ".join(f"{name}: {_line(value)}" for name, value in given.items())
-    hint = (
-        f"write `declared_parameters: {{{lines}}}` in its part, or `free_parameters: true` to accept any name"
-    )
+    names, lines = ", ".join(given), []
+    for name, value in given.items():
+        kind = _kind(value)
+        default = "NUMBER, unit: UNIT" if kind == "a number" else kind.split()[-1].upper()
+        lines.append(f"{name}: {{default: {default}}}")
+    declared = f"`declared_parameters: {{{', '.join(lines)}}}`"
+    hint = f"write {declared} in its part, or `free_parameters: true` to accept any name"
     return Problem(next(iter(given)), f"the controller declares no parameters, given: {names}", hint)
-
-
-def _line(value: Any) -> str:
-    kind = _kind(value)
-    return (
-        "{default: NUMBER, unit: UNIT}" if kind == "a number" else f"{{default: {kind.split()[-1].upper()}}}"
-    )
 
 
 HEADER: Final = Path(__file__).with_name("uictest_controller.h")

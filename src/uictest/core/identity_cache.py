@@ -19,7 +19,7 @@ def once_per_object(function: Callable[[Argument], Result]) -> Callable[[Argumen
     results: dict[int, tuple[Argument, Result]] = {}
 
     @wraps(function)
-    def kept(argument: Argument) -> Result:
+    def computed_once(argument: Argument) -> Result:
         entry = results.get(id(argument))
         if entry is None:
             entry = argument, function(argument)
@@ -28,4 +28,4 @@ def once_per_object(function: Callable[[Argument], Result]) -> Callable[[Argumen
             results[id(argument)] = entry
         return entry[1]
 
-    return kept
+    return computed_once

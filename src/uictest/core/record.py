@@ -62,6 +62,31 @@ class FieldCopier:
             setattr(target, name, getattr(source, name))
 
 
+class Start(NamedTuple):
+    """The number that a field holds before anything is observed."""
+
+    value: float
+
+
+def starts_at(value: float) -> Any:
+    """Declare the number that a field of a record holds before anything is observed."""
+    return Start(value)
+
+
+class FieldStarter:
+    """Sets every field of a record that is declared by :func:`starts_at`; the kernel has one, too."""
+
+    def __init__(self, record: type[Record]) -> None:
+        declared = {name: getattr(record, name, None) for name in fields_of(record)}
+        self.record = record
+        self.values = {name: start.value for name, start in declared.items() if isinstance(start, Start)}
+
+    def __call__(self, target: Any) -> None:
+        """Set the fields."""
+        for name, value in self.values.items():
+            setattr(target, name, value)
+
+
 def channel(unit: str) -> Any:
     """Declare that a field of a record is a channel of a recording, in ``unit``."""
     return unit
@@ -95,12 +120,12 @@ def layout_of(record: type[Record], *additions: type[Record]) -> Any:
     import numpy as np  # what only declares records must not pay for it: `uictest check`, `uictest --help`
 
     fields = {name: (name, *_kind(name, annotation)) for name, annotation in fields_of(record).items()}
-    own = _owners(record)
+    owners_before = _owners(record)
     for addition in additions:
         owners = _owners(addition)
         for name, annotation in fields_of(addition).items():
             field = (name, *_kind(name, annotation))
-            if own.get(name, owners[name]) is not owners[name] or fields.get(name, field) != field:
+            if owners_before.get(name, owners[name]) is not owners[name] or fields.get(name, field) != field:
                 raise TypeError(
                     f"{addition.__module__}.{addition.__qualname__}: {name!r} is a field of the rig "
                     "or of another module already; give this one another name"

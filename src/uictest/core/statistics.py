@@ -98,12 +98,12 @@ def median_rank(draws: int, confidence: float) -> int | None:
     """
     from scipy.special import betainc
 
-    each = 0.5 * (1.0 + confidence)
+    one_sided = 0.5 * (1.0 + confidence)
     # Up to some rank all draws bound, beyond it none: the interval is halved.
     known, beyond = 0, draws + 1
     while beyond - known > 1:
         middle = (known + beyond) // 2
-        bounds = betainc(middle, draws - middle + 1, 0.5) >= each
+        bounds = betainc(middle, draws - middle + 1, 0.5) >= one_sided
         known, beyond = (middle, beyond) if bounds else (known, middle)
     return known or None
 

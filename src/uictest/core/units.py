@@ -5,6 +5,7 @@ kind, which :attr:`Kind.canonical` names.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
@@ -51,17 +52,14 @@ class Kind:
         canonical: its SI unit, in which the package keeps it.
         units: the units that scenarios accept, by symbol, the most usual one first.
         all_units: those and the units of recordings.
+        bare: whether the quantity is a pure number, written without a unit.
     """
 
     name: str
     canonical: str
     units: MappingProxyType[str, Unit]
     all_units: tuple[Unit, ...]
-
-    @property
-    def bare(self) -> bool:
-        """Whether the quantity is a pure number, written without a unit."""
-        return not self.units
+    bare: bool
 
 
 def _unit(
@@ -79,7 +77,7 @@ def _unit(
 
 def _kind(name: str, canonical: str, *units: Unit) -> Kind:
     stated = {unit.symbol: unit for unit in units if not unit.recorded_only}
-    return Kind(name, canonical, MappingProxyType(stated), units)
+    return Kind(name, canonical, MappingProxyType(stated), units, bare=not stated)
 
 
 _PERCENT = _unit("%", "0.01", "percent percentage pct")
@@ -165,27 +163,11 @@ _KINDS = (
         _unit("m/s2", 1, "m/s/s mps2 ms-2 m/sec2"),
         _unit("g", Fraction(str(STANDARD_GRAVITY))),
     ),
-    _kind(
-        "share",
-        "1",
-        _PERCENT,
-        _PERMILLE,
-        _unit("1", 1, recorded_as=("-",)),
-    ),
+    _kind("share", "1", _PERCENT, _PERMILLE, _unit("1", 1, recorded_as=("-",))),
     _kind("gradient", "1", _PERMILLE, _PERCENT),
     _kind("force per pressure", "N/Pa", _unit("kN/bar", "0.01"), _unit("N/bar", "1e-5"), _unit("N/Pa", 1)),
-    _kind(
-        "mass flow",
-        "kg/s",
-        _unit("NL/min", Fraction(str(NORMAL_DENSITY)) / 1000 / 60),
-        _unit("kg/s", 1),
-    ),
-    _kind(
-        "sand rate",
-        "kg/s",
-        _unit("kg/min", Fraction(1, 60)),
-        _unit("g/s", "0.001"),
-    ),
+    _kind("mass flow", "kg/s", _unit("NL/min", Fraction(str(NORMAL_DENSITY)) / 1000 / 60), _unit("kg/s", 1)),
+    _kind("sand rate", "kg/s", _unit("kg/min", Fraction(1, 60)), _unit("g/s", "0.001")),
     _kind("line density", "kg/m", _unit("g/m", "0.001"), _unit("kg/m", 1, recorded_only=True)),
     _kind("frequency", "Hz", _unit("Hz", 1)),
     _kind("inverse speed", "s/m", _unit("s/m", 1)),
@@ -244,6 +226,14 @@ def in_unit(value: float, unit: str) -> float:
     return value / SIZES[unit]
 
 
+def all_in_unit(values: Iterable[float], unit: str) -> list[float]:
+    """Return SI values in `unit`."""
+    if unit in _ZEROS:
+        return [value - _ZEROS[unit] for value in values]
+    size = SIZES[unit]
+    return [value / size for value in values]
+
+
 def normal_volume(mass: float) -> float:
     """Return the normal volume (m3 at 20 degC and 1 bar) of a mass of air (kg)."""
     return mass / NORMAL_DENSITY
@@ -257,6 +247,11 @@ def to_12_digits(value: float) -> float:
 def value_text(value: float, unit: str) -> str:
     """Return a value in `unit` as text: four significant digits, no unit for a pure number."""
     return with_unit(f"{value:.0f}" if 1e3 <= abs(value) < 1e6 else f"{value:.4g}", unit)
+
+
+def values_text(values: Iterable[float], unit: str) -> str:
+    """Return values in `unit` as text: `0.2, 0.31, 0 s`."""
+    return with_unit(", ".join(value_text(value, "1") for value in values), unit)
 
 
 def with_unit(numbers: str, unit: str) -> str:

@@ -35,9 +35,9 @@ def read(kind: str, inputs: bytes) -> bytes | None:
     """
     for folder in safe_folders(make=False):
         with contextlib.suppress(OSError):
-            kept = _bytes_of(folder / name_of(kind, inputs))
-            content = kept[_DIGEST_SIZE:]
-            if kept[:_DIGEST_SIZE] == _digest(inputs, content):
+            cached = _bytes_of(folder / name_of(kind, inputs))
+            content = cached[_DIGEST_SIZE:]
+            if cached[:_DIGEST_SIZE] == _digest(inputs, content):
                 return content
     return None
 
@@ -61,7 +61,7 @@ def safe_folders(*, make: bool) -> Iterator[Path]:
     for root in roots():
         try:
             if make:
-                make_private(root)
+                files.make_folder(root, mode=0o700)
             reason = why_unsafe(root)
         except OSError:  # a home that is missing or read-only: try the next root
             continue
@@ -90,7 +90,6 @@ def _bytes_of(path: Path) -> bytes:
 
 @cache
 def _warn(text: str) -> None:
-    """Write a warning to stderr, once per text."""
     logging.getLogger(__name__).warning("uictest: %s", text)
 
 
@@ -101,11 +100,6 @@ def roots() -> Iterator[Path]:
     user = os.getuid() if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")
     with contextlib.suppress(FileNotFoundError):  # no temporary folder is writable
         yield Path(tempfile.gettempdir(), f"uictest-{user}").absolute()
-
-
-def make_private(folder: Path) -> None:
-    """Create a folder and its missing parents for this user alone. Raises OSError."""
-    files.make_folder(folder, mode=0o700)
 
 
 def why_unsafe(folder: Path) -> str:
@@ -121,7 +115,7 @@ def why_unsafe(folder: Path) -> str:
     if target.stat().st_uid != os.getuid():
         return f"{str(target)!r} belongs to another user; set UICTEST_CACHE to a folder of your own"
     above = dict.fromkeys((*folder.parents, *target.parents))
-    reasons = (_why_unsafe_place(place, above=place in above) for place in (target, folder, *above))
+    reasons = (_why_unsafe_path(path, above=path in above) for path in (target, folder, *above))
     return next((reason for reason in reasons if reason), "")
 
 
@@ -132,13 +126,13 @@ def is_trusted(status: os.stat_result) -> bool:
     return status.st_uid == os.getuid() and not status.st_mode & _BY_OTHERS
 
 
-def _why_unsafe_place(place: Path, *, above: bool) -> str:
-    status = place.lstat()
+def _why_unsafe_path(path: Path, *, above: bool) -> str:
+    status = path.lstat()
     if status.st_uid not in (os.getuid(), _SYSTEM):
-        return f"{str(place)!r} belongs to another user; set UICTEST_CACHE to a folder of your own"
+        return f"{str(path)!r} belongs to another user; set UICTEST_CACHE to a folder of your own"
     is_protected = stat.S_ISLNK(status.st_mode) or (above and status.st_mode & stat.S_ISVTX)
     if status.st_mode & _BY_OTHERS and not is_protected:
-        return f"others can write {str(place)!r}, and what is cached is executed; `chmod go-w` it"
+        return f"others can write {str(path)!r}, and what is cached is executed; `chmod go-w` it"
     return ""
 
 

@@ -6,16 +6,16 @@ import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Annotated, Final, NamedTuple
+
+from pydantic import Field
 
 from uictest.core import measures
 from uictest.core.document import Column, Table, Tone
 from uictest.judging import evaluation
-from uictest.report.case_words import DIFFERS, result_word, tone
-from uictest.report.counts import counted
-from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.verdict_sentences import explanation, listed, number, quantity, tally
+from uictest.report.verdict_sentences import explanation, tally
+from uictest.report.words import DIFFERS, counted, listed, number, printable, quantity, result_word
 
 CELSIUS: Final = "degC"
 _LARGEST_PERCENT: Final = 1000
@@ -25,12 +25,30 @@ Value = int | float | str
 """A number, NaN where there is none; or a text: an outcome, a verdict, a unit."""
 
 
+class StatusChange(NamedTuple):
+    """The outcome of a case or series on both sides, or the status of one criterion; None: there is none."""
+
+    first: evaluation.Outcome | evaluation.Status | None
+    second: evaluation.Outcome | evaluation.Status | None
+    criterion: str = ""
+    """Its id; empty for the outcome."""
+
+    @property
+    def turn(self) -> str:
+        """What turned: `new` where only the second side is missed, `fixed` where only the first is."""
+        if {None, "not_applicable"} & {self.first, self.second}:
+            return "turned"
+        was, is_now = (status in ("pass", "skipped") for status in (self.first, self.second))
+        return "turned" if was == is_now else "fixed" if is_now else "new"
+
+
 @dataclass(frozen=True, slots=True)
 class Difference:
     """One quantity that is not the same on both sides.
 
     `case` is empty for a recording. `first`, `second`, `deviation` and `allowed` are in `unit`; the last two
-    are None where the sides cannot be subtracted. `remark` says where or why.
+    are None where the sides cannot be subtracted. `remark` says where or why. `status` is what an outcome or
+    a verdict was and is; documents have it in words alone.
     """
 
     case: str
@@ -42,6 +60,18 @@ class Difference:
     deviation: float | None = None
     allowed: float | None = None
     remark: str = ""
+    status: Annotated[StatusChange | None, Field(exclude=True)] = field(default=None, compare=False)
+
+
+def status_difference(case: str, status: StatusChange) -> Difference | None:
+    """Return how an outcome or a verdict differs, None where it is the same on both sides."""
+    if status.first == status.second:
+        return None
+    quantity = f"criterion {status.criterion}" if status.criterion else "outcome"
+    first, second = (
+        "none" if side is None else side.replace("_", " ") for side in (status.first, status.second)
+    )
+    return Difference(case, quantity, first, second, within=False, status=status)
 
 
 def side_text(value: Value) -> str:
@@ -108,23 +138,14 @@ _COLUMNS: Final[tuple[Column[Difference], ...]] = (
 
 def differences_table(differences: Sequence[Difference], most: int | None = None) -> Table:
     """Return quantities of a run that are out of the tolerance of its baseline."""
-    return Table(_COLUMNS, differences, more="more quantities are in `results.json`.", most=most)
-
-
-def is_verdict(difference: Difference) -> bool:
-    """Return whether a difference is one of an outcome or of the status of a criterion."""
-    return difference.quantity == "outcome" or difference.quantity.startswith("criterion ")
+    return Table(_COLUMNS, differences, all_in="results.json", most=most)
 
 
 def turn(difference: Difference) -> str:
     """Return the word of a difference: a verdict that is missed on the second side alone is `new`."""
-    if difference.within or not is_verdict(difference):
-        return "within" if difference.within else "differs"
-    sides = str(difference.first), str(difference.second)
-    was, is_now = (tone(side) == "good" for side in sides)
-    if was == is_now or {"none", "not applicable"}.intersection(sides):
-        return "turned"
-    return "fixed" if is_now else "new"
+    if difference.within:
+        return "within"
+    return DIFFERS if difference.status is None else difference.status.turn
 
 
 def turn_tone(difference: Difference) -> Tone:

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
-from uictest.core.document import Cell, Tone
+from uictest.core.document import Column, Table, Tone
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.report.case_words import outcome_word
+from uictest.report.words import listed, outcome_word
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult
@@ -33,7 +33,6 @@ class Evidence(NamedTuple):
         word: that of the case or series where it names the requirement itself. Otherwise pass, fail, invalid,
             inconclusive, error or not applicable: the verdict of the criteria that name it.
         criteria: ids of these criteria; empty where the case or series names the requirement itself.
-
     """
 
     kind: Literal["case", "series"]
@@ -66,24 +65,25 @@ class VerifiedRequirement(NamedTuple):
     @property
     def status(self) -> RequirementStatus:
         """met: in every case and series that puts it to the test; not tested: there is none."""
-        counted = [each.met for each in self.evidence if each.counts]
-        return ("met" if all(counted) else "not met") if counted else "not tested"
+        if not self.tested:
+            return "not tested"
+        return "not met" if self.not_met else "met"
 
     @property
     def counts(self) -> tuple[int, int]:
         """How many cases and how many series name it."""
-        cases = sum(each.kind == "case" for each in self.evidence)
+        cases = sum(evidence.kind == "case" for evidence in self.evidence)
         return cases, len(self.evidence) - cases
 
     @property
     def tested(self) -> list[Evidence]:
         """The cases and series that put it to the test."""
-        return [each for each in self.evidence if each.counts]
+        return [evidence for evidence in self.evidence if evidence.counts]
 
     @property
     def not_met(self) -> list[Evidence]:
         """Those of them that do not meet it."""
-        return [each for each in self.tested if not each.met]
+        return [evidence for evidence in self.tested if not evidence.met]
 
 
 def verified_requirements(
@@ -96,7 +96,7 @@ def verified_requirements(
     found: dict[str, list[Evidence]] = {}
     for requirement, evidence in chain(*map(_evidence, results), *map(_evidence, series)):
         found.setdefault(requirement, []).append(evidence)
-    return [VerifiedRequirement(each, tuple(found[each])) for each in scenario.in_order_of_ids(found)]
+    return [VerifiedRequirement(name, tuple(found[name])) for name in scenario.in_order_of_ids(found)]
 
 
 def requirements_of(result: evaluation.CaseResult | SeriesResult) -> tuple[str, ...]:
@@ -106,22 +106,46 @@ def requirements_of(result: evaluation.CaseResult | SeriesResult) -> tuple[str, 
     return tuple(dict.fromkeys((*result.requirements, *of_criteria)))
 
 
-def requirement_rows(requirements: Iterable[VerifiedRequirement]) -> Iterator[dict[str, Cell]]:
-    """Yield a row for each requirement and case or series.
+class _Row(NamedTuple):
+    requirement: VerifiedRequirement
+    evidence: Evidence
 
-    The columns are `requirement`, `status`, `kind`, `id`, `verdict` and `criteria`.
-    """
-    for each in requirements:
-        for evidence in each.evidence:
-            own: dict[str, Cell] = {"requirement": each.id, "status": each.status}
-            own |= {"kind": evidence.kind, "id": evidence.id}
-            yield {**own, "verdict": evidence.word, "criteria": "; ".join(evidence.criteria)}
+
+_EVIDENCE: Final[tuple[Column[_Row], ...]] = (
+    Column(key="requirement", value=lambda row: row.requirement.id),
+    Column(key="status", value=lambda row: row.requirement.status),
+    Column(key="kind", value=lambda row: row.evidence.kind),
+    Column(key="id", value=lambda row: row.evidence.id),
+    Column(key="verdict", value=lambda row: row.evidence.word),
+    Column(key="criteria", value=lambda row: "; ".join(row.evidence.criteria)),
+)
+_REQUIREMENTS: Final[tuple[Column[VerifiedRequirement], ...]] = (
+    Column(heading="requirement", text=lambda row: row.id, literal=True),
+    Column(heading="status", text=lambda row: row.status, tone=lambda row: REQUIREMENT_TONES[row.status]),
+    Column(heading="tested in", value=lambda row: len(row.tested), digits=0),
+    Column(
+        heading="not met in",
+        text=lambda row: listed([f"{evidence.name} ({evidence.word})" for evidence in row.not_met]),
+    ),
+)
+
+
+def evidence_table(requirements: Iterable[VerifiedRequirement]) -> Table:
+    """Return one row for each requirement and case or series that names it, for programs."""
+    rows = [_Row(requirement, evidence) for requirement in requirements for evidence in requirement.evidence]
+    return Table(_EVIDENCE, rows, name="requirements")
+
+
+def requirements_table(requirements: Iterable[VerifiedRequirement], most: int) -> Table:
+    """Return one row for each requirement, those not met first, for people."""
+    rows = sorted(requirements, key=lambda requirement: requirement.status == "met")
+    return Table(_REQUIREMENTS, rows, all_in="tables/requirements.csv", most=most)
 
 
 def _verdicts(result: evaluation.CaseResult | SeriesResult) -> list[evaluation.Verdict]:
-    if not isinstance(result, evaluation.CaseResult):
-        return [each.verdict for each in result.criteria]
-    return list(result.decided)
+    if isinstance(result, evaluation.CaseResult):
+        return list(result.decided)
+    return [judged.verdict for judged in result.criteria]
 
 
 def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[str, Evidence]]:
@@ -131,28 +155,28 @@ def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[st
     if result.expect.outcome != "pass":
         return  # what must not pass shows that its criteria can fail, not that a requirement is met
     verdicts = _verdicts(result)
-    own: dict[str, list[evaluation.Verdict]] = {}
+    by_requirement: dict[str, list[evaluation.Verdict]] = {}
     for verdict in verdicts:
         for requirement in set(verdict.requirements) - set(result.requirements):
-            own.setdefault(requirement, []).append(verdict)
-    for requirement, naming in own.items():
+            by_requirement.setdefault(requirement, []).append(verdict)
+    for requirement, naming in by_requirement.items():
         # Criteria of a series may have been judged although one of its stops failed to run.
         word = "error" if result.outcome == "error" else _word(naming, verdicts)
         yield requirement, Evidence(kind, result.id, word, tuple(verdict.id for verdict in naming))
 
 
-def _word(own: list[evaluation.Verdict], verdicts: Iterable[evaluation.Verdict]) -> str:
+def _word(naming: list[evaluation.Verdict], verdicts: Iterable[evaluation.Verdict]) -> str:
     """Return what the criteria of one requirement say; what is no test shows nothing met."""
     of_validity = {
         verdict.status
         for verdict in verdicts
-        if verdict not in own
+        if verdict not in naming
         and (verdict.layer == "validity" or (verdict.is_check and verdict.status == "fail"))
     }
-    statuses = {verdict.status for verdict in own} - {"not_applicable"}
+    statuses = {verdict.status for verdict in naming} - {"not_applicable"}
     if not statuses:
         return NOT_APPLICABLE
-    stands = any(verdict.status == "fail" and not verdict.in_valid_test for verdict in own)
+    stands = any(verdict.status == "fail" and not verdict.in_valid_test for verdict in naming)
     if stands and not evaluation.failed_checks(verdicts):
         return "fail"
     if "fail" in of_validity:

@@ -10,100 +10,58 @@ from datetime import UTC, datetime
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated, Any, Final
 
-from pydantic import (
-    BeforeValidator,
-    ConfigDict,
-    SerializerFunctionWrapHandler,
-    TypeAdapter,
-    WrapSerializer,
-)
+from pydantic import BeforeValidator, ConfigDict, TypeAdapter
 
 from uictest.core import files, recording
 from uictest.judging import evaluation, series
-from uictest.report.campaign import campaign_form, read_campaign
-from uictest.report.content import CaseDescription, RunContent, drawn_cases
+from uictest.report.content import (
+    CaseDescription,
+    RunContent,
+    RunManifest,
+    campaign_form,
+    drawn_cases,
+    manifest_digest,
+    manifest_form,
+    read_campaign,
+    read_manifest,
+)
 from uictest.report.difference import BaselineComparison, Difference
-from uictest.report.formats import IN_EVERY_RUN, write_formats
-from uictest.report.manifest import RunManifest, manifest_digest, manifest_form, read_manifest
 from uictest.report.traces.trace import PlotTrace, trace_of_stop
 
+RESULTS: Final = "results.json"
+RECORDINGS: Final = "recordings"
 _CONFIG: Final = ConfigDict(extra="forbid", defer_build=True)
-_SIDES: Final = ("first", "second")
-
-
-def _with_nulls(difference: Difference, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-    form: dict[str, Any] = evaluation.json_form(write(difference))
-    return form
 
 
 def _with_nan(content: object) -> object:
+    """Return the form of a difference with NaN for a side without a number, which is null in JSON."""
     if isinstance(content, Mapping):
-        return {**content, **{side: math.nan for side in _SIDES if content.get(side, 0.0) is None}}
+        missing = [side for side in ("first", "second") if content.get(side, 0.0) is None]
+        return {**content, **dict.fromkeys(missing, math.nan)}
     return content
 
 
-WrittenDifference = Annotated[Difference, WrapSerializer(_with_nulls), BeforeValidator(_with_nan)]
-"""In JSON a side without a number is null."""
-
-
-def _flat(baseline: BaselineComparison, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-    """Return the form with one list of differences, each of which names its case, and with `agrees`."""
-    form = write(baseline)
-    return {
-        "folder": form["folder"],
-        "sha256": form["sha256"],
-        "agrees": baseline.agrees,
-        **form,
-        "differences": differences_form(baseline.all_differences),
-    }
-
-
-def _by_case(content: object) -> object:
-    if not (isinstance(content, Mapping) and isinstance(content.get("differences"), list)):
-        return content
-    by_case: dict[str, list[Difference]] = {}
-    for difference in evaluation.from_json_form(_DIFFERENCES, content["differences"]):
-        by_case.setdefault(difference.case, []).append(difference)
-    return {**{name: value for name, value in content.items() if name != "agrees"}, "differences": by_case}
-
-
+_DIFFERENCES: Final = TypeAdapter(list[Annotated[Difference, BeforeValidator(_with_nan)]], config=_CONFIG)
+_BASELINE: Final = TypeAdapter(list[BaselineComparison], config=_CONFIG)
 _SUBJECTS: Final = TypeAdapter(
     dict[str, Annotated[CaseDescription, evaluation.required("title", "tags", "settings")]],
     config=ConfigDict(defer_build=True),
 )
-_DIFFERENCES: Final = TypeAdapter(list[WrittenDifference], config=_CONFIG)
-_BASELINE: Final = TypeAdapter(
-    list[Annotated[BaselineComparison, WrapSerializer(_flat), BeforeValidator(_by_case)]], config=_CONFIG
-)
-
-
-def subjects_form(subjects: Mapping[str, CaseDescription]) -> dict[str, Any]:
-    """Return the JSON form of the subjects of cases, by the ids of the cases."""
-    form: dict[str, Any] = evaluation.to_json_form(_SUBJECTS, subjects)
-    return form
-
-
-def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
-    """Return the subjects of the cases in a document.
-
-    Raises ValueError where there are none, one lacks a field, or a field holds something else.
-    """
-    try:
-        return evaluation.from_json_form(_SUBJECTS, document.get("subjects"), place="subjects")
-    except ValueError as error:
-        raise ValueError(f"not the subject of a case: {error}") from error
 
 
 def differences_form(differences: Sequence[Difference]) -> list[dict[str, Any]]:
     """Return the JSON form of differences, NaN as None."""
-    form: list[dict[str, Any]] = evaluation.to_json_form(_DIFFERENCES, list(differences))
+    form: list[dict[str, Any]] = evaluation.json_form(
+        evaluation.to_json_form(_DIFFERENCES, list(differences))
+    )
     return form
 
 
 def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
-    """Return the JSON form of a comparison, with `agrees` for readers that need no more."""
+    """Return the JSON form of a comparison: one list of differences, and `agrees` for who needs no more."""
     form: dict[str, Any] = evaluation.to_json_form(_BASELINE, [baseline])[0]
-    return form
+    head = {"folder": baseline.folder, "sha256": baseline.sha256, "agrees": baseline.agrees}
+    return head | form | {"differences": differences_form(baseline.all_differences)}
 
 
 def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison | None:
@@ -112,11 +70,47 @@ def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison 
     Raises ValueError where the document holds something else.
     """
     content = document.get("baseline")
-    return evaluation.from_json_form(_BASELINE, [content], place="baseline")[0] if content else None
+    if not content:
+        return None
+    if isinstance(content, Mapping) and isinstance(content.get("differences"), list):
+        by_case: dict[str, list[Difference]] = {}
+        for difference in evaluation.from_json_form(_DIFFERENCES, content["differences"], place="baseline"):
+            by_case.setdefault(difference.case, []).append(difference)
+        content = {name: value for name, value in content.items() if name != "agrees"}
+        content["differences"] = by_case
+    return evaluation.from_json_form(_BASELINE, [content], place="baseline")[0]
 
 
-RECORDINGS: Final = "recordings"
-_ELSEWHERE: Final = ("", ".", "..")
+def subjects_form(subjects: Mapping[str, CaseDescription]) -> dict[str, Any]:
+    """Return the JSON form of the subjects of cases, by the ids of the cases."""
+    form: dict[str, Any] = evaluation.to_json_form(_SUBJECTS, subjects)
+    return form
+
+
+def run_name(started: datetime, manifest: RunManifest) -> str:
+    """Return the name of a run: its start in UTC and a short hash of its manifest."""
+    return f"{started.astimezone(UTC):%Y%m%dT%H%M%SZ}-{manifest_digest(manifest)}"
+
+
+def run_texts(content: RunContent) -> dict[str, str]:
+    """Return the documents of a run in JSON, by the names of their files."""
+    header: dict[str, Any] = {
+        "manifest": manifest_form(content.manifest),
+        "complete": content.complete,
+        "subjects": subjects_form(content.subjects),
+    }
+    if content.baseline is not None:
+        header["baseline"] = baseline_form(content.baseline)
+    if content.series:
+        header["series"] = series.series_document(content.series)
+    if content.passed_over:
+        header["passed_over"] = list(content.passed_over)
+    if content.campaign is not None:
+        header["campaign"] = campaign_form(content.campaign)
+    return {
+        "manifest.json": evaluation.to_json(header["manifest"]),
+        RESULTS: evaluation.to_json(evaluation.result_document(content.results, **header)),
+    }
 
 
 def recording_path(folder: Path, case_id: str) -> Path:
@@ -131,59 +125,9 @@ def recording_path(folder: Path, case_id: str) -> Path:
 def require_names(case_ids: Iterable[str]) -> None:
     """Raise ValueError for an id that is not the name of a file: a path, on this system or another."""
     for case_id in case_ids:
-        if not _is_name(case_id):
+        names = {path(case_id).name for path in (PurePosixPath, PureWindowsPath)}
+        if case_id in ("", ".", "..") or names != {case_id} or "\0" in case_id:
             raise ValueError(f"the id {case_id!r} of a case is not the name of a file")
-
-
-def _is_name(case_id: str) -> bool:
-    names = {path(case_id).name for path in (PurePosixPath, PureWindowsPath)}
-    return case_id not in _ELSEWHERE and names == {case_id} and "\0" not in case_id
-
-
-RESULTS = "results.json"
-
-
-def run_name(started: datetime, manifest: RunManifest) -> str:
-    """Return the name of a run: its start in UTC and a short hash of its manifest."""
-    return f"{started.astimezone(UTC):%Y%m%dT%H%M%SZ}-{manifest_digest(manifest)}"
-
-
-def write_reports(folder: Path, content: RunContent) -> str:
-    """Write the manifest, the results and the reports of every run; return the text of results.json.
-
-    Raises OSError.
-    """
-    document = _encodable(evaluation.to_json(_document(content)))
-    texts = {
-        "manifest.json": _encodable(evaluation.to_json(manifest_form(content.manifest))),
-        RESULTS: document,
-    }
-    for name, text in texts.items():
-        files.write(folder, name, text)
-    write_formats(folder, content, IN_EVERY_RUN)
-    return document
-
-
-def _document(content: RunContent) -> dict[str, Any]:
-    header: dict[str, Any] = {
-        "manifest": manifest_form(content.manifest),
-        "complete": content.complete,
-        "subjects": subjects_form(content.subjects),
-    }
-    if content.baseline is not None:
-        header["baseline"] = baseline_form(content.baseline)
-    if content.series:
-        header["series"] = series.series_document(content.series)
-    if content.passed_over:
-        header["passed_over"] = list(content.passed_over)
-    if content.campaign is not None:
-        header["campaign"] = campaign_form(content.campaign)
-    return evaluation.result_document(content.results, **header)
-
-
-def _encodable(json_text: str) -> str:
-    # A file name that is no UTF-8 holds lone surrogates; spelled out they are valid JSON escapes.
-    return json_text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def write_recording(folder: Path, case_id: str, samples: recording.Recording) -> Path:
@@ -230,6 +174,14 @@ def with_recorded_traces(content: RunContent, folder: Path, drawn_first: Collect
     return dataclasses.replace(content, traces=traces, drawn_first=drawn_first)
 
 
+def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
+    """Return the subjects of the cases in a document. Raises ValueError where they are none."""
+    try:
+        return evaluation.from_json_form(_SUBJECTS, document.get("subjects"), place="subjects")
+    except ValueError as error:
+        raise ValueError(f"not the subject of a case: {error}") from error
+
+
 def run_content(document: object, name: str) -> RunContent:
     """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
     if not isinstance(document, Mapping):
@@ -247,7 +199,7 @@ def run_content(document: object, name: str) -> RunContent:
     if not isinstance(complete, bool):
         raise ValueError(f"'complete' must be true or false, found {complete!r}")
     passed_over = document.get("passed_over", [])
-    if not (isinstance(passed_over, list) and all(isinstance(each, str) for each in passed_over)):
+    if not (isinstance(passed_over, list) and all(isinstance(line, str) for line in passed_over)):
         raise ValueError("'passed_over' must be a list of sentences")
     content = RunContent(
         *(name, results, manifest, complete, subjects),

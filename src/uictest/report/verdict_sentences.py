@@ -1,34 +1,29 @@
-"""How results and verdicts are put into words, the same in every format."""
+"""How results and verdicts are put into words, the same in every format; and why a stop came out so."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 from uictest.core.measures import MEASURES
 from uictest.judging import evaluation
-from uictest.report.case_words import ALLOWED, CASE_WORDS, DIFFERS, result_word
-from uictest.report.causes import cause_sentences
-from uictest.report.counts import counted
-from uictest.report.escaping import printable
-from uictest.report.firmness_sentences import firmness_sentences
-from uictest.report.repeat_wording import repeat_sentences
+from uictest.plans.faults import FAULT_KINDS
+from uictest.report.robustness import firmness_sentences, repeat_sentences
+from uictest.report.words import (
+    ALLOWED,
+    CASE_WORDS,
+    DIFFERS,
+    NAMED,
+    counted,
+    number,
+    printable,
+    quantity,
+    result_word,
+)
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult
-
-_NAMED = 3
-"""Names that a list shows before it counts the rest."""
-
-
-def number(value: float | None) -> str:
-    """Return a number with five significant digits, `-` where there is none (None or NaN)."""
-    return "-" if value is None or value != value else f"{value:.5g}"
-
-
-def quantity(value: float | None, unit: str) -> str:
-    """Return a number with its unit; the unit 1 of a pure number is left out."""
-    return number(value) if value is None or unit in ("", "1") else f"{number(value)} {unit}"
 
 
 def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
@@ -68,29 +63,31 @@ def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Ver
 
 def without_checks_that_hold(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
     """Return verdicts without the checks that hold: for people, one sentence says that they do."""
-    return [each for each in verdicts if not each.is_check or each.status not in ("pass", "not_applicable")]
+    held = ("pass", "not_applicable")
+    return [verdict for verdict in verdicts if not (verdict.is_check and verdict.status in held)]
 
 
 def check_sentence(verdicts: Iterable[evaluation.Verdict]) -> str:
     """Return how many checks of the rig or of the record hold, and of the latter which could not be made."""
-    verdicts = [each for each in verdicts if each.is_check]
-    checks = [each for each in verdicts if each.status != "not_applicable"]
-    held = sum(each.status == "pass" for each in checks)
-    if not checks:
+    checks = [verdict for verdict in verdicts if verdict.is_check]
+    made = [verdict for verdict in checks if verdict.status != "not_applicable"]
+    if not made:
         return ""
-    layer, other = checks[0].layer, len(verdicts) - len(checks)
-    missing = f", {other} not made" if layer == "record" and other else ""
-    return (
-        f"checks of the {layer}: {'all' if held == len(checks) else f'{held} of {len(checks)}'} hold{missing}"
-    )
+    held = sum(verdict.status == "pass" for verdict in made)
+    shown = "all" if held == len(made) else f"{held} of {len(made)}"
+    layer, missing = made[0].layer, len(checks) - len(made)
+    not_made = f", {missing} not made" if layer == "record" and missing else ""
+    return f"checks of the {layer}: {shown} hold{not_made}"
 
 
 def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
     """Return which of so many wheelsets miss a criterion: `all 4 wheelsets`, `wheelset 3 only`."""
+    if not verdict.missed_by or len(verdict.missed_by) == wheelsets == 1:
+        return ""
     if len(verdict.missed_by) == wheelsets:
-        return f"all {wheelsets} wheelsets" if wheelsets > 1 else ""
-    *others, last = map(str, verdict.missed_by or ("",))
-    return f"wheelsets {', '.join(others)} and {last}" if others else last and f"wheelset {last} only"
+        return f"all {wheelsets} wheelsets"
+    *others, last = map(str, verdict.missed_by)
+    return f"wheelsets {', '.join(others)} and {last}" if others else f"wheelset {last} only"
 
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
@@ -109,34 +106,39 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
 
     `instants` says when the values of criteria, by their ids, were taken.
     """
-    deciding = {
-        verdict.id: verdict_sentence(verdict)
-        for verdict in sorted(_deciding(result), key=lambda verdict: not verdict.is_check)
-    }
+    instants = instants or {}
+    deciding = sorted(_deciding(result), key=lambda verdict: not verdict.is_check)
+    lines = {verdict.id: verdict_sentence(verdict) for verdict in deciding}
     # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
     # without any it is all there is.
     alone = not deciding or result.outcome == "error"
-    reason = [printable(result.reason)] if result.reason and alone else []
-    own_outcome, verdicts = evaluation.deciding_verdicts(result.decided)
-    if own_outcome != result.outcome:  # as over the stops of a repeated case
+    outcome, verdicts = evaluation.deciding_verdicts(result.decided)
+    if outcome != result.outcome:  # as over the stops of a repeated case
         verdicts = list(_deciding(result))
-    known = instants or {}
-    named = [
-        missed_sentence(verdict, known.get(verdict.id, ""))
+    missed = [
+        missed_sentence(verdict, instants.get(verdict.id, ""))
         for verdict in verdicts
         if verdict.status in ("fail", "inconclusive")
     ]
-    outcome = outcome_sentence(result, named)
-    unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding.values()]
-    unsettled += firmness_sentences(result) if result.lacks_firmness else ()
-    lines = [
-        f"{line} (taken at {at})" if (at := known.get(name)) else line for name, line in deciding.items()
-    ]
-    statements = [statement_sentence(result)] if result.criteria else []
+    unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in lines.values()]
     return [
-        *(outcome, *statements, *cause_sentences(result), *repeat_sentences(result)),
-        *(*reason, *lines, *unsettled),
+        outcome_sentence(result, missed),
+        *([statement_sentence(result)] if result.criteria else ()),
+        *cause_sentences(result),
+        *repeat_sentences(result),
+        *([printable(result.reason)] if result.reason and alone else ()),
+        *(f"{line} (taken at {at})" if (at := instants.get(name)) else line for name, line in lines.items()),
+        *unsettled,
+        *(firmness_sentences(result) if result.lacks_firmness else ()),
     ]
+
+
+def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
+    """Yield the criteria that fail, and those of an undecided or skipped stop that say why it is."""
+    for verdict in result.criteria:
+        undecided = verdict.status == "inconclusive" and result.outcome == "inconclusive"
+        if verdict.status == "fail" or (not verdict.is_check and (undecided or result.outcome == "skipped")):
+            yield verdict
 
 
 def missed_sentence(verdict: evaluation.Verdict, at: str = "") -> str:
@@ -151,18 +153,14 @@ def missed_sentence(verdict: evaluation.Verdict, at: str = "") -> str:
 
 def statement_sentence(result: evaluation.CaseResult) -> str:
     """Return the two statements on a stop: whether it is a test, and whether requirements are met."""
-    missed = [each for each in result.criteria if each.status == "fail"]
-    no_test = ", ".join(each.id for each in missed if each.layer != "requirement")
-    failed = ", ".join(each.id for each in missed if each.layer == "requirement")
-    validity, requirements = (
-        each.replace("_", " ") for each in (result.test_validity, result.requirement_status)
-    )
+    missed = [verdict for verdict in result.criteria if verdict.status == "fail"]
+    no_test = ", ".join(verdict.id for verdict in missed if verdict.layer != "requirement")
+    failed = ", ".join(verdict.id for verdict in missed if verdict.layer == "requirement")
     if result.rail is not None and result.rail.decides:
         no_test = f"as measured; of the rail, which decides: {result.rail.test_validity.replace('_', ' ')}"
-    return printable(
-        f"test validity: {validity}{f' ({no_test})' if no_test else ''};"
-        f" requirements: {requirements}{f' ({failed})' if failed else ''}"
-    )
+    validity = f"{result.test_validity.replace('_', ' ')}{no_test and f' ({no_test})'}"
+    requirements = f"{result.requirement_status.replace('_', ' ')}{failed and f' ({failed})'}"
+    return printable(f"test validity: {validity}; requirements: {requirements}")
 
 
 def allowed_sentences(results: Iterable[evaluation.CaseResult]) -> Iterator[str]:
@@ -215,23 +213,22 @@ def reading_sentences(verdict: evaluation.Verdict) -> list[str]:
     """Return what a criterion says by each of its readings, e.g. `depth fail: 14.2 % (above 30 km/h) ...`."""
     return [
         printable(
-            f"{each.id}{' (decides)' if each.decides else ''} {each.status.replace('_', ' ')}: "
-            f"{each.reason or quantity(each.value, each.unit)}"
+            f"{reading.id}{' (decides)' if reading.decides else ''} {reading.status.replace('_', ' ')}: "
+            f"{reading.reason or quantity(reading.value, reading.unit)}"
         )
-        for each in verdict.readings
+        for reading in verdict.readings
     ]
 
 
 def reading_sources(verdict: evaluation.Verdict) -> dict[str, str]:
     """Return where each further reading of a criterion comes from, and its definitions."""
-    return {
-        printable(each.id): printable(
-            f"{each.mark}: {each.source or 'no source'}, "
-            + ", ".join(f"{name} = {text}" for name, text in each.definition.items())
-        )
-        for each in verdict.readings
-        if not each.decides
-    }
+    sources = {}
+    for reading in verdict.readings:
+        if not reading.decides:
+            definitions = ", ".join(f"{name} = {text}" for name, text in reading.definition.items())
+            source = f"{reading.mark}: {reading.source or 'no source'}, {definitions}"
+            sources[printable(reading.id)] = printable(source)
+    return sources
 
 
 def real_time_sentences(result: evaluation.CaseResult) -> list[str]:
@@ -247,14 +244,6 @@ def real_time_sentences(result: evaluation.CaseResult) -> list[str]:
     return [f"in real time: {answers}, {worst}, start of a cycle at most {jitter} late"]
 
 
-def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
-    for verdict in result.criteria:
-        decides = verdict.status == "inconclusive" and result.outcome == "inconclusive"
-        decides = not verdict.is_check and (decides or result.outcome == "skipped")
-        if verdict.status == "fail" or decides:
-            yield verdict
-
-
 def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = ()) -> str:
     """Return the counts of a run, e.g. `12 cases: 9 pass, 1 expected fail, 2 fail; 2 not as expected`.
 
@@ -265,10 +254,10 @@ def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = 
         return "no case"
     words = [DIFFERS if result.met and result.id in differing else result_word(result) for result in results]
     counts = {word: words.count(word) for word in CASE_WORDS}
-    counted_words = counts_text(counts, sum(not each.met for each in results))
+    counted_words = counts_text(counts, sum(not result.met for result in results))
     allowed = list(allowed_sentences(results))
-    more = [f"{len(allowed) - _NAMED} more allowed"] if len(allowed) > _NAMED else []
-    return "; ".join([f"{counted(len(words), 'case')}: {counted_words}", *allowed[:_NAMED], *more])
+    more = [f"{len(allowed) - NAMED} more allowed"] if len(allowed) > NAMED else []
+    return "; ".join([f"{counted(len(words), 'case')}: {counted_words}", *allowed[:NAMED], *more])
 
 
 def counts_text(counts: Mapping[str, int], not_met: int) -> str:
@@ -278,8 +267,74 @@ def counts_text(counts: Mapping[str, int], not_met: int) -> str:
     return f"{shown}; {not_met} not as expected" if not_met else shown
 
 
-def listed(names: Sequence[str]) -> str:
-    """Return the first names, and how many more there are."""
-    more = len(names) - _NAMED
-    shown = ", ".join(map(printable, names[:_NAMED]))
-    return f"{shown} and {more} more" if more > 0 else shown
+_BYPASSED: Final = "WSP bypassed: the controller did not act, the stop says nothing about it"
+
+
+def cause_sentences(result: evaluation.CaseResult) -> list[str]:
+    """Return what was done to a stop that explains its outcome."""
+    bypassed = [_BYPASSED] if is_bypassed(result.parts) else []
+    parameters = [parameter for part in result.parts.values() for parameter in part.parameters]
+    return [*fault_sentences(parameters), *bypassed, *rail_sentences(result)]
+
+
+def rail_sentences(result: evaluation.CaseResult) -> Iterator[str]:
+    """Yield why a stop is no test by what its WSP made of it, and what the rail itself is."""
+    if (rail := result.rail) is None:
+        return
+    failed = [
+        verdict for verdict in result.criteria if verdict.layer == "validity" and verdict.status == "fail"
+    ]
+    by_itself = f"does not count as a test by the stop itself: {', '.join(map(_valued, failed))}; "
+    of_rail = [_valued(verdict) for verdict in rail.criteria if verdict.value is not None]
+    found = ", ".join([*of_rail, *(["wheels lock"] if rail.wheels_lock else [])])
+    which = f"the rail itself (WSP bypassed{', which decides' if rail.decides else ''})"
+    validity = rail.test_validity.replace("_", " ")
+    of_the_rail = f"{which} is {validity}: {found}; friction as found {rail.friction}"
+    yield printable(f"{by_itself if failed else ''}{of_the_rail}")
+
+
+def _valued(verdict: evaluation.Verdict) -> str:
+    """Return the value of a criterion with its limit: `initial-adhesion 0.0851 g (< 0.08)`."""
+    value = "-" if verdict.value is None else f"{verdict.value:.3g} {verdict.unit}"
+    limit = verdict.upper if verdict.lower is None else verdict.lower
+    sign = "<" if verdict.lower is None else ">"
+    return f"{verdict.id} {value}{'' if limit is None else f' ({sign} {limit:g})'}"
+
+
+def is_bypassed(parts: Mapping[str, evaluation.EffectivePart]) -> bool:
+    """Return whether the WSP did not act on the valves in a case with these parts."""
+    rig = parts.get("scenario.rig")
+    return rig is not None and any(p.key == "rig.wsp" and p.written == "bypassed" for p in rig.parameters)
+
+
+def fault_sentences(
+    parameters: Sequence[evaluation.Parameter], varied: Collection[str] = ()
+) -> Iterator[str]:
+    """Yield the faults among parameters: `injected fault: vent valve of wheelset 3: stuck closed from 6 s`.
+
+    Of what varies, the keys `varied`, they say nothing.
+    """
+    faults: dict[str, dict[str, str]] = {}
+    for parameter in parameters:
+        above, _, field = parameter.key.rpartition(".")
+        if above.startswith("faults."):
+            faults.setdefault(above, {})[field] = "" if parameter.key in varied else parameter.written
+    for fault in faults.values():
+        words = fault_words(*(fault.get(name, "") for name in ("part", "kind", "wheelset", "value")))
+        begin, end = fault.get("at"), fault.get("until")
+        span = f"{f' from {begin}' if begin else ''}{f' until {end}' if end else ''}"
+        yield printable(f"injected fault: {words}{span}")
+
+
+def fault_words(part: str, kind: str, wheelset: str = "", value: str = "") -> str:
+    """Return a fault as people say it, e.g. `vent valve of wheelset 3: stuck closed`."""
+    of = f" of wheelset {wheelset}" if wheelset else ""
+    return f"{part.replace('-', ' ')}{of}: {kind.replace('-', ' ')}{f' {value}' if value else ''}"
+
+
+def label_words(label: str) -> str:
+    """Return the words of the fault that a recording names by its label; of an unknown one the label."""
+    for part, kind in FAULT_KINDS:
+        if found := re.fullmatch(rf"{part}-{kind}(?:-(\d))?", label):
+            return fault_words(part, kind, found[1] or "")
+    return label

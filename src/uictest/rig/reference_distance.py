@@ -10,29 +10,28 @@ from uictest.core.measures import STOP_MEASURES
 from uictest.core.record import fields_of
 from uictest.rig.kernel.arguments import Length, at
 from uictest.rig.kernel.library import Entry, native_function
-from uictest.rig.model.parameters import PARAMETERS, Parameters
+from uictest.rig.model.parameters import PARAMETERS, WHEELSET_PARAMETERS, Parameters
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.single_stop import StopInputs
+from uictest.rig.train_stop import StopInputs
 
 if TYPE_CHECKING:
-    from uictest.rig.backends.lanes import BatchMeasures
+    from uictest.rig.lanes import BatchMeasures
 
-_SLIDES: Final = tuple(0.4 / 1.28**k for k in range(16))
-"""Chosen: 40, 31, 24 .. 1 %; the distance at the best of them is within 0.2 % of the shortest."""
-_COARSE, _FINE = 0.05, 0.005
-"""s, of the steps that find the best slide, and of those that give its distance: within 0.3 %; chosen."""
+_SLIDES: Final = np.array([0.4 / 1.28**k for k in reversed(range(16))])
+"""Chosen: 1 .. 24, 31, 40 %; the distance at the best of them is within 0.2 % of the shortest."""
+_STOPS: Final = len(_SLIDES) + 1
 _LACKING: Final = ("end_speed", "drag_duration", "has_track_brake", "has_sanders", "fault_count")
 """Parameters that are above zero where a stop of a car alone has no reference; a train is not asked."""
 _OF_CONTROLLERS: Final = {*PARAMETERS.names} - {*fields_of(Parameters)}
 _UNREAD: Final = ("controller", "controller_contract", "noise_key", "wsp_active", *_OF_CONTROLLERS)
 """Parameters that no reference depends on and in which stops on one rail often differ."""
 ENTRY: Final = Entry(
-    "uictest.rig.model.reference_stop:keep_slide_to_end",
+    "uictest.rig.model.reference_stop:find_reference",
     (
-        *(at(CAR), at(BOGIE, 2), at(WHEELSET, 4), at(PARAMETERS), at(WHEELSET_PARAMETERS, 4)),
-        *(at("f8", ROWS, Length("points")), at(RAIL_MEMORY), at(STOP_MEASURES), at("f8", 2)),
+        *(at(CAR, _STOPS), at(BOGIE, 2 * _STOPS), at(WHEELSET, 4 * _STOPS)),
+        *(at(PARAMETERS), at(WHEELSET_PARAMETERS, 4), at("f8", ROWS, Length("points"))),
+        *(at(RAIL_MEMORY), at(STOP_MEASURES), at("f8", len(_SLIDES))),
     ),
 )
 
@@ -51,8 +50,8 @@ def reference_distances(
 def run_in_lanes(
     parameters: NDArray[Any], wheelset_parameters: NDArray[Any], rail: NDArray[np.float64]
 ) -> "BatchMeasures":
-    """Return what :func:`uictest.rig.backends.lanes.run_in_lanes` does, with the reference distances."""
-    from uictest.rig.backends import lanes  # a single stop does not load them
+    """Return what :func:`uictest.rig.lanes.run_in_lanes` does, with the reference distances."""
+    from uictest.rig import lanes  # a single stop does not load them
 
     batch = lanes.run_in_lanes(parameters, wheelset_parameters, rail)
     batch.measures["reference_distance"] = reference_distances(parameters, wheelset_parameters, rail)
@@ -83,11 +82,8 @@ def _shortest(parameters: bytes, wheelset_parameters: bytes, rail: bytes) -> flo
         np.frombuffer(wheelset_parameters, WHEELSET_PARAMETERS),
         np.frombuffer(rail).reshape(ROWS, -1),
     )
-
-    def distance_at(slide: float, step: float) -> float:
-        measures, car, memory = (np.zeros(1, layout)[0] for layout in (STOP_MEASURES, CAR, RAIL_MEMORY))
-        records = car, np.zeros(2, BOGIE), np.zeros(4, WHEELSET), *given, memory, measures
-        native_function(ENTRY)(*records, np.array([slide, step]))
-        return float(measures["reference_distance"])
-
-    return distance_at(min(_SLIDES, key=lambda slide: distance_at(slide, _COARSE)), _FINE)
+    cars, bogies = np.zeros(_STOPS, CAR), np.zeros(2 * _STOPS, BOGIE)
+    wheelsets = np.zeros(4 * _STOPS, WHEELSET)
+    memory, measures = np.zeros(1, RAIL_MEMORY)[0], np.zeros(1, STOP_MEASURES)[0]
+    native_function(ENTRY)(cars, bogies, wheelsets, *given, memory, measures, _SLIDES)
+    return float(measures["reference_distance"])

@@ -3,7 +3,8 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,26 +12,29 @@ from numpy.typing import NDArray
 from uictest.controllers import Config, ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, TRACK_BRAKES_BESIDE, Recording
 from uictest.plans.scenario import Case
-from uictest.rig.assembly import assemble
-from uictest.rig.coupled_cars import CouplerPeaks, peaks_beside
+from uictest.rig.assembly import assemble, noise_key_text
 from uictest.rig.external.workers import RunInputs, RunTrain, Workers
-from uictest.rig.model.trace import (
-    ACCELERATION_CHANNELS,
-    CAR_CHANNELS,
-    CONTROLLER_CHANNELS,
-    DISC_CHANNELS,
-    DYNAMIC_BRAKE_CHANNELS,
-    FAULT_CHANNELS,
-    REQUEST_CHANNELS,
-    SAND_CHANNELS,
-    TRACK_BRAKE_CHANNELS,
-    TRAIN_SPEED_CHANNELS,
-    WHEELSET_CHANNELS,
-)
+from uictest.rig.model.trace import CAR_CHANNELS, CHANNELS_OF, WHEELSET_CHANNELS
 from uictest.rig.reference_distance import measures_with_reference
-from uictest.rig.single_stop import FinishedStop, noise_key_text
-from uictest.rig.train_inputs import assemble_train, coupling_of
-from uictest.rig.train_stop import TrainInputs, empty_trace
+from uictest.rig.train_assembly import Coupling, assemble_train, coupling_of
+from uictest.rig.train_stop import FinishedStop, TrainInputs, TrainStop, empty_trace
+
+
+class CouplerPeaks(NamedTuple):
+    """The largest forces with which a coupler pulled and pushed, N."""
+
+    pull: float
+    push: float
+
+
+def peaks_beside(couplers: NDArray[Any]) -> list[tuple[CouplerPeaks | None, CouplerPeaks | None]]:
+    """Return those of the couplers ahead of and behind each car, None where there is none.
+
+    Args:
+        couplers: records of :data:`~uictest.rig.model.state.COUPLER`, from the leading one.
+    """
+    peaks = [CouplerPeaks(float(each["largest_pull"]), float(each["largest_push"])) for each in couplers]
+    return list(pairwise([None, *peaks, None]))
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,7 @@ class SimulatedStop:
         controller_contract: version of the contract that it kept; 0: the controller is built in.
         response_times: how it answered, where cycles were paced by the clock.
         case_sha256: what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
-        noise_key: of the sensors' noise, see :mod:`uictest.rig.single_stop`, as eight hexadecimal digits.
+        noise_key: of the sensors' noise, see :mod:`uictest.rig.train_stop`, as eight hexadecimal digits.
         coupler_ahead: largest forces in the coupler to the car ahead, None where there is none.
         coupler_behind: largest forces in the coupler to the car behind, None where there is none.
         controller_output: what a controller from outside printed, where that is kept.
@@ -126,28 +130,52 @@ def simulate_trains(
     Raises:
         ControllerError: when a controller from outside failed.
     """
-    from uictest.rig.backends.lanes import run_trains_in_lanes  # single stops do without them
+    from uictest.rig.lanes import run_trains_in_lanes  # single stops do without them
 
     inputs = [_inputs_of(cases) for cases in trains]
     if noise_of is not None:
         keys = _inputs_of([noise_of]).parameters["noise_key"]
-        for place, each in enumerate(inputs):
-            each.parameters["noise_key"] = keys
-            configs = (config and replace(config, case_sha256="") for config in each.configs)
-            inputs[place] = each._replace(configs=tuple(configs))
-    in_lanes = iter(run_trains_in_lanes([each for each in inputs if not each.from_outside]))
+        for k, train_inputs in enumerate(inputs):
+            train_inputs.parameters["noise_key"] = keys
+            configs = (config and replace(config, case_sha256="") for config in train_inputs.configs)
+            inputs[k] = train_inputs._replace(configs=tuple(configs))
+    in_lanes = iter(
+        run_trains_in_lanes([train_inputs for train_inputs in inputs if not train_inputs.from_outside])
+    )
     stops: list[list[SimulatedStop]] = []
     with Workers() as workers:
-        for cases, own in zip(trains, inputs, strict=True):
-            if own.from_outside:
-                stop = (run or workers.run_train)(own, 0)
-                stops.append(_stops_of_train(cases, own, stop.cars, stop.couplers))
+        for cases, train in zip(trains, inputs, strict=True):
+            if train.from_outside:
+                stop = (run or workers.run_train)(train, 0)
+                stops.append(_stops_of_train(cases, train, stop.cars, stop.couplers))
             else:
                 of_lane = next(in_lanes)
                 pairs = zip(of_lane.measures, of_lane.wheelset_measures.view(np.recarray), strict=True)
                 cars = [FinishedStop(*pair, None, None, empty_trace(1, 0)) for pair in pairs]
-                stops.append(_stops_of_train(cases, own, cars, of_lane.couplers))
+                stops.append(_stops_of_train(cases, train, cars, of_lane.couplers))
     return stops
+
+
+def run_coupled(
+    cases: Sequence[Case], coupling: Coupling, steps_per_sample: int = 0, run: RunTrain | None = None
+) -> TrainStop:
+    """Run one stop of a train.
+
+    Args:
+        cases: one for each car, from the leading one, all with the same rail.
+        coupling: between them.
+        steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
+        run: what runs it [default: a child process if a controller comes from outside].
+
+    Raises:
+        ValueError: where cars differ in what a train has only once, or cannot have their controllers.
+        ControllerError: when a controller from outside failed.
+    """
+    inputs = assemble_train(cases, coupling)
+    if run is not None:
+        return run(inputs, steps_per_sample)
+    with Workers() as workers:
+        return workers.run_train(inputs, steps_per_sample)
 
 
 def sha256_of_case(case: Case) -> str:
@@ -157,16 +185,10 @@ def sha256_of_case(case: Case) -> str:
 
 
 def _inputs_of(cases: Sequence[Case]) -> TrainInputs:
-    cars = _train_of(cases)
-    return assemble_train(cars, coupling_of(cars[0].scenario))
-
-
-def _train_of(cases: Sequence[Case]) -> list[Case]:
-    """Return all cars of a train, some of which are given, each as if it ran alone."""
     cars = list(cases[0].cars)
     for case in cases:
-        cars[_place(case)] = replace(case, train=None)
-    return cars
+        cars[_place(case)] = replace(case, train=None)  # as if it ran alone
+    return assemble_train(cars, coupling_of(cars[0].scenario))
 
 
 def _place(case: Case) -> int:
@@ -182,17 +204,16 @@ def _stops_of_train(
     *,
     recorded: bool = False,
 ) -> list[SimulatedStop]:
-    """Return the stops of some cars of a train, of which all have finished."""
     peaks = peaks_beside(couplers)
 
     def of_car(case: Case) -> SimulatedStop:
-        place = _place(case)
-        stop = _stop_of_car(case, finished[place], inputs.configs[place], recorded=recorded)
+        index = _place(case)
+        stop = _stop_of_car(case, finished[index], inputs.configs[index], recorded=recorded)
         return replace(
             stop,
-            noise_key=noise_key_text(inputs.parameters[place]),
-            coupler_ahead=peaks[place][0],
-            coupler_behind=peaks[place][1],
+            noise_key=noise_key_text(inputs.parameters[index]),
+            coupler_ahead=peaks[index][0],
+            coupler_behind=peaks[index][1],
         )
 
     return [of_car(case) for case in cases]
@@ -205,8 +226,10 @@ def _stop_of_car(
     from_outside = config is not None
     recording = recording_of_stop(case, finished, from_outside=from_outside) if recorded else None
     if recording is not None:
-        metadata = {**recording.metadata, **_facts_of_controller(case, finished)}
-        recording = replace(recording, metadata=metadata)
+        controller = case.scenario.controller
+        version = getattr(controller, "version", None) or finished.controller_version
+        facts = {"controller": controller.label, **({"controller_version": version} if version else {})}
+        recording = replace(recording, metadata={**recording.metadata, **facts})
     return SimulatedStop(
         *(finished.measures, finished.wheelset_measures, recording),
         finished.controller_version,
@@ -226,35 +249,27 @@ def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool)
         from_outside: whether the controller was one from outside, which may have a diagnosis.
     """
     train, wheelsets = finished.trace
-    speaks_version_2 = from_outside and finished.contract > 1
-    of_train, of_wheelsets = _recorded(case, from_outside=from_outside, speaks_version_2=speaks_version_2)
-    channels = {name: train[name].copy() for name in of_train}
-    units = dict(of_train)
-    for i in range(4):
-        channels |= {f"{name}_{i + 1}": wheelsets[name][:, i].copy() for name in of_wheelsets}
-        units |= {f"{name}_{i + 1}": unit for name, unit in of_wheelsets.items()}
-    return Recording(channels, units, _facts(case, finished))
-
-
-def _recorded(
-    case: Case, *, from_outside: bool, speaks_version_2: bool
-) -> tuple[dict[str, str], dict[str, str]]:
-    """Return the channels of the train and of a wheelset that mean something in a stop, with their units."""
-    missing = {
-        *(() if from_outside else CONTROLLER_CHANNELS),
-        *(() if speaks_version_2 else REQUEST_CHANNELS),
-        *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
-        *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
-        *(() if case.scenario.brake.track else TRACK_BRAKE_CHANNELS),
-        *(() if case.scenario.rig.sensors.train_speed else TRAIN_SPEED_CHANNELS),
-        *(() if case.scenario.rig.sensors.acceleration else ACCELERATION_CHANNELS),
-        *(() if any(car.scenario.sanders for car in case.cars) else SAND_CHANNELS),
-        *(() if case.scenario.faults else FAULT_CHANNELS),
+    brake, sensors = case.scenario.brake, case.scenario.rig.sensors
+    has = {
+        "disc temperature": brake.models_disc_temperature,
+        "dynamic brake": brake.dynamic,
+        "track brake": brake.track,
+        "train speed": sensors.train_speed,
+        "accelerometer": sensors.acceleration,
+        "controller from outside": from_outside,
+        "contract version 2": from_outside and finished.contract > 1,
+        "sanders": any(car.scenario.sanders for car in case.cars),
+        "faults": case.scenario.faults,
     }
-    return (
-        {name: unit for name, unit in CAR_CHANNELS if name not in missing},
-        {name: unit for name, unit in WHEELSET_CHANNELS if name not in missing},
-    )
+    missing = {name for what, names in CHANNELS_OF.items() if not has[what] for name in names}
+    units = {name: unit for name, unit in CAR_CHANNELS if name not in missing}
+    channels = {name: train[name].copy() for name in units}
+    for i in range(4):
+        for name, unit in WHEELSET_CHANNELS:
+            if name not in missing:
+                channels[f"{name}_{i + 1}"] = wheelsets[name][:, i].copy()
+                units[f"{name}_{i + 1}"] = unit
+    return Recording(channels, units, _facts(case, finished))
 
 
 def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
@@ -269,10 +284,3 @@ def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
     if case.scenario.faults:
         facts["faults"] = ", ".join(fault.label for fault in case.scenario.faults)
     return facts
-
-
-def _facts_of_controller(case: Case, finished: FinishedStop) -> dict[str, str]:
-    """Return the name of the controller of a stop, and the version that one from outside has."""
-    controller = case.scenario.controller
-    version = getattr(controller, "version", None) or finished.controller_version
-    return {"controller": controller.label, **({"controller_version": version} if version else {})}

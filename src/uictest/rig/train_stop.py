@@ -1,20 +1,51 @@
 """One stop of a train, or of a car alone: what the rig is given for it, and what it leaves."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import Config, ControllerProgram
+from uictest.controllers import Config, ControllerProgram, ResponseTimes
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.stops import RunTrain
-from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.records import TrainRecords
-from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.state import BOGIE, CAR, COUPLER, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.single_stop import FinishedStop, StopInputs, rows_of_trace
-from uictest.rig.train_measures import finished_cars
+from uictest.rig.stops import RunTrain
+
+
+class StopInputs(NamedTuple):
+    """What the rig is given for one stop of a car alone.
+
+    Attributes:
+        parameters: record of :data:`~uictest.rig.model.parameters.PARAMETERS`.
+        wheelset_parameters: four records of :data:`~uictest.rig.model.parameters.WHEELSET_PARAMETERS`.
+        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.rail`, shape (4, n).
+        program: what is loaded where the controller comes from outside, else None.
+        config: what that controller is given before the stop, else None.
+    """
+
+    parameters: Any
+    wheelset_parameters: Any
+    rail: NDArray[np.float64]
+    program: ControllerProgram | None = None
+    config: Config | None = None
+
+
+def stacked(stops: Sequence[StopInputs]) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.float64]]:
+    """Return the parameters of stops, those of their wheelsets and their rails, as lanes are given them.
+
+    Shapes are (n,), (n, 4) and (n, 4, points); shorter rails end in zeros: their length is in the parameters.
+    """
+    parameters = np.array([stop.parameters for stop in stops], stops[0].parameters.dtype)
+    rail = np.zeros((len(stops), stops[0].rail.shape[0], max(stop.rail.shape[1] for stop in stops)))
+    for k, stop in enumerate(stops):
+        rail[k, :, : stop.rail.shape[1]] = stop.rail
+    return parameters, np.array([stop.wheelset_parameters for stop in stops]), rail
 
 
 class TrainInputs(NamedTuple):
@@ -22,9 +53,9 @@ class TrainInputs(NamedTuple):
 
     Attributes:
         parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
-        wheelset_parameters: of :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, (n, 4).
+        wheelset_parameters: of :data:`~uictest.rig.model.parameters.WHEELSET_PARAMETERS`, (n, 4).
         distances: of each car's first wheelset behind that of the train, m, shape (n,).
-        couplers: records of :data:`~uictest.rig.model.couplers.COUPLER` before the stop, shape (n - 1,).
+        couplers: records of :data:`~uictest.rig.model.state.COUPLER` before the stop, shape (n - 1,).
         rail: friction of the rail, the rows of :mod:`~uictest.rig.model.rail`, shape (4, points).
         programs: for each car what is loaded where its controller comes from outside, else None.
         configs: what those controllers are given before the stop, else None.
@@ -40,22 +71,8 @@ class TrainInputs(NamedTuple):
 
     @property
     def from_outside(self) -> dict[int, ControllerProgram]:
-        """The programs of the cars whose controllers come from outside, by their places from 0."""
-        return {place: each for place, each in enumerate(self.programs) if each is not None}
-
-
-class TrainStop(NamedTuple):
-    """A finished stop of a train.
-
-    Attributes:
-        cars: what each car leaves, in the order of the train.
-        couplers: records of :data:`~uictest.rig.model.couplers.COUPLER`, one behind each car but the last.
-        parameters: of every car.
-    """
-
-    cars: tuple[FinishedStop, ...]
-    couplers: NDArray[Any]
-    parameters: NDArray[Any]
+        """The programs of the cars whose controllers come from outside, by the index of the car."""
+        return {car: program for car, program in enumerate(self.programs) if program is not None}
 
 
 def alone(inputs: StopInputs) -> TrainInputs:
@@ -64,6 +81,39 @@ def alone(inputs: StopInputs) -> TrainInputs:
         *(np.array([inputs.parameters]), inputs.wheelset_parameters[None], np.zeros(1), np.zeros(0, COUPLER)),
         *(np.ascontiguousarray(inputs.rail), (inputs.program,), (inputs.config,)),
     )
+
+
+@dataclass(frozen=True)
+class FinishedStop:
+    """What a stop leaves of a car: its measures, the final state and, if requested, the trace.
+
+    Of a controller from outside also the version that it names, how it answered if cycles were paced by the
+    clock, the version of the contract, and what it printed, where that is kept.
+    """
+
+    measures: Any
+    wheelset_measures: Any
+    car: Any
+    wheelsets: Any
+    trace: Trace
+    controller_version: str = ""
+    response_times: ResponseTimes | None = None
+    contract: int = 1
+    controller_output: str = ""
+
+
+class TrainStop(NamedTuple):
+    """A finished stop of a train.
+
+    Attributes:
+        cars: what each car leaves, in the order of the train.
+        couplers: records of :data:`~uictest.rig.model.state.COUPLER`, one behind each car but the last.
+        parameters: of every car.
+    """
+
+    cars: tuple[FinishedStop, ...]
+    couplers: NDArray[Any]
+    parameters: NDArray[Any]
 
 
 def run_to_end(run_train: RunTrain, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
@@ -80,27 +130,64 @@ def run_train_to_end(run_train: RunTrain, inputs: TrainInputs, steps_per_sample:
         inputs: of its cars, and of what couples them; the ledgers of its couplers are filled.
         steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
     """
-    train = _fresh_records(inputs)
-    trace = empty_trace(len(train.cars), rows_of_trace(inputs.parameters[0], steps_per_sample))
+    given: Any = inputs
+    zeros: Any = np.zeros
+    n = len(inputs.parameters)
+    train = TrainRecords(
+        *(zeros(n, CAR), zeros(2 * n, BOGIE), zeros(4 * n, WHEELSET), given.parameters),
+        *(given.wheelset_parameters.reshape(-1), zeros(n, RAIL_MEMORY)),
+        *(zeros(n, STOP_MEASURES), zeros(4 * n, WHEELSET_MEASURES)),
+        *(given.distances, given.couplers, given.rail),
+    )
+    trace = empty_trace(n, rows_of_trace(inputs.parameters[0], steps_per_sample))
     rows = run_train(train, trace, steps_per_sample)
     return TrainStop(finished_cars(train, trace, rows), inputs.couplers, inputs.parameters)
 
 
-def _fresh_records(inputs: TrainInputs) -> TrainRecords:
-    """Return the records of a stop that has not begun."""
-    given: Any = inputs
-
-    def zeroed(layout: Any, each: int = 1) -> Any:
-        return np.zeros(each * len(inputs.parameters), layout)
-
-    return TrainRecords(
-        *(zeroed(CAR), zeroed(BOGIE, 2), zeroed(WHEELSET, 4), given.parameters),
-        *(given.wheelset_parameters.reshape(-1), zeroed(RAIL_MEMORY)),
-        *(zeroed(STOP_MEASURES), zeroed(WHEELSET_MEASURES, 4)),
-        *(given.distances, given.couplers, given.rail),
-    )
+def rows_of_trace(parameters: Any, steps_per_sample: int) -> int:
+    """Return the rows of the longest trace of a stop; 0 steps per sample: none."""
+    if steps_per_sample == 0:
+        return 0
+    return int(parameters["cycles"] * parameters["steps_per_cycle"]) // steps_per_sample + 1
 
 
 def empty_trace(cars: int, rows: int) -> Trace:
     """Return the trace of a train with so many rows, not yet filled."""
     return Trace(np.empty((cars, rows), TRAIN_SAMPLE), np.empty((cars, rows, 4), WHEELSET_SAMPLE))
+
+
+def finished_cars(train: TrainRecords, trace: Trace, rows: int) -> tuple[FinishedStop, ...]:
+    """Return what the stop of a train leaves of each car; its measures are changed.
+
+    Args:
+        train: records of a stop that has ended.
+        trace: samples of every car, shapes (n, room) and (n, room, 4).
+        rows: of the trace that are filled.
+    """
+    measures: Any = train.measures
+    wheelset_measures, wheelsets = (
+        np.asarray(records).view(np.recarray) for records in (train.wheelset_measures, train.wheelsets)
+    )
+    note_track_brakes_beside(measures)
+    return tuple(
+        FinishedStop(
+            measures[j],
+            wheelset_measures[4 * j : 4 * j + 4],
+            train.cars[j],
+            wheelsets[4 * j : 4 * j + 4],
+            Trace(trace.train[j, :rows], trace.wheelsets[j, :rows]),
+        )
+        for j in range(len(train.cars))
+    )
+
+
+def note_track_brakes_beside(measures: NDArray[Any]) -> None:
+    """Note in the measures of every car for how long track brakes of the others acted: they slow it, too.
+
+    Args:
+        measures: records of :data:`uictest.core.measures.STOP_MEASURES`, shape (n, ...), of n cars; changed.
+    """
+    for car in range(len(measures)):
+        others = np.delete(measures["track_brake_time"], car, axis=0)
+        if others.size:
+            measures["track_brake_time_beside"][car] = np.fmax.reduce(others, axis=0)

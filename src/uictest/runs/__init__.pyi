@@ -4,10 +4,8 @@ from .batch import (
     all_cases as all_cases,
     batch_of as batch_of,
     run_batch as run_batch,
+    with_traces as with_traces,
 )
-from .drawing import with_traces as with_traces
-from .errors import InvalidInputError as InvalidInputError
-from .implausible import implausible_trains as implausible_trains, place_of_key as place_of_key
 from .observer import Advance as Advance, Observer as Observer, available_processors as available_processors
 from .publishing import (
     Published as Published,
@@ -19,36 +17,36 @@ from .publishing import (
     why_no_run as why_no_run,
 )
 from .recorded import (
+    CaseOfStop as CaseOfStop,
+    RecordedFile as RecordedFile,
     RecordedStops as RecordedStops,
     case_of_stop as case_of_stop,
+    each_file as each_file,
+    named_map as named_map,
+    read_recording as read_recording,
+    read_stop as read_stop,
     recorded_batch as recorded_batch,
     require_nothing_stated as require_nothing_stated,
     stops_in_recordings as stops_in_recordings,
     stops_of_series as stops_of_series,
 )
-from .recorded_files import (
-    CaseOfStop as CaseOfStop,
-    RecordedFile as RecordedFile,
-    each_file as each_file,
-    named_map as named_map,
-    read_recording as read_recording,
-    read_stop as read_stop,
-)
 from .scenario_files import (
+    InvalidInputError as InvalidInputError,
+    implausible_trains as implausible_trains,
     is_series as is_series,
     is_sweep as is_sweep,
     load_cases as load_cases,
     load_cases_and_series as load_cases_and_series,
     nothing_selected as nothing_selected,
     only_case as only_case,
+    place_of_key as place_of_key,
     read_reference as read_reference,
     reference_of as reference_of,
     scenario_paths as scenario_paths,
     series_files as series_files,
     sweep_files as sweep_files,
 )
-from .sweep import run_sweep as run_sweep
-from .sweep_chunks import (
+from .sweep import (
     MaxfailReached as MaxfailReached,
     SweepRequest as SweepRequest,
     ToleranceError as ToleranceError,
@@ -56,6 +54,7 @@ from .sweep_chunks import (
     frontier_search as frontier_search,
     measure_names as measure_names,
     reason_missed as reason_missed,
+    run_sweep as run_sweep,
 )
 from .validation import (
     ValidationRun as ValidationRun,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -15,10 +15,8 @@ from uictest.core import recording
 from uictest.judging import evaluation, series as judging_series
 from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
-from uictest.runs.drawing import TraceCollection
-from uictest.runs.implausible import implausible_trains
-from uictest.runs.observer import Observer
-from uictest.runs.scenario_files import references_of
+from uictest.runs.observer import Observer, available_processors
+from uictest.runs.scenario_files import implausible_trains, references_of
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""
@@ -80,7 +78,7 @@ class Batch(NamedTuple):
 
 def all_cases(cases: Iterable[scenario.Case], planned: Iterable[series_plans.Series]) -> list[scenario.Case]:
     """Return cases and those of series."""
-    return [*cases, *(case for each in planned for case in each.cases)]
+    return [*cases, *(case for one in planned for case in one.cases)]
 
 
 def batch_of(
@@ -118,10 +116,10 @@ def batch_of(
     cars = {case.id: scenario.car_figures(case.scenario) for case in everything}
     settings = settings or campaign.RunSettings()
     read_for: Sequence[scenario.Case | series_plans.Series] = (*everything, *settings.calibration, *planned)
-    read = {name: digest for each in read_for for name, digest in each.inputs.items()}
+    read = {name: digest for loaded in read_for for name, digest in loaded.inputs.items()}
     manifest = report.run_manifest(arguments, seed, read, len(everything), parts.values())
-    domains = {case_id: each.domain_of(parts[case_id]) for case_id, each in references.items()}
-    of_validations = {each.file: each.sha256 for each in references.values()}
+    domains = {case_id: reference.domain_of(parts[case_id]) for case_id, reference in references.items()}
+    of_validations = {reference.file: reference.sha256 for reference in references.values()}
     return Batch(
         cases,
         planned,
@@ -153,10 +151,14 @@ def run_batch(
         keep: takes the recordings of cases.
     """
     settings = batch.settings
-    drawing = TraceCollection.of(
-        *(batch.all_cases, settings.recording, batch.drawn_first),
+    recorded = batch.judge is not None
+    drawing = TraceCollection(
+        batch.all_cases,
+        settings.recording,
         needed=draws_stops,
-        recorded=batch.judge is not None,
+        repeatable=recorded or are_repeatable(batch.all_cases),
+        drawn_first=batch.drawn_first,
+        recorded=recorded,
     )
     runner = _CaseRunner(batch, observer, drawing, keep)
     done = runner.run(batch.cases, settings, observer.case)
@@ -168,7 +170,7 @@ def run_batch(
         judged = run_series(
             batch.series,
             lambda cases: runner.run(cases, of_series, observer.case_of_series),
-            lambda each, result: _with_firmness(each, result, settings, observer),
+            lambda one, result: _with_firmness(one, result, settings, observer),
             maxfail=None if settings.maxfail is None else settings.maxfail - missed,
             show=observer.series,
         )
@@ -271,18 +273,18 @@ def run_series(
     """
     batch: campaign.BatchResult[judging_series.SeriesResult] = campaign.BatchResult()
     finished: dict[str, evaluation.CaseResult] = {}
-    for place, each in enumerate(planned):
+    for index, one in enumerate(planned):
         if maxfail is not None and sum(not result.met for result in batch.results) >= maxfail:
             break
-        if any(case.id not in finished for case in each.cases):
-            done = run(series_plans.cases_run_together(planned[place:]))
+        if any(case.id not in finished for case in one.cases):
+            done = run(series_plans.cases_run_together(planned[index:]))
             if done.interrupted:
                 batch.interrupted = True
                 break
             finished = {result.id: result for result in done.results}
-        result = judging_series.judge_results(each, [finished[case.id] for case in each.cases])
+        result = judging_series.judge_results(one, [finished[case.id] for case in one.cases])
         try:
-            result = complete(each, result)
+            result = complete(one, result)
         except KeyboardInterrupt:
             batch.interrupted = True
         batch.results.append(result)
@@ -290,3 +292,119 @@ def run_series(
         if batch.interrupted:
             break
     return batch
+
+
+@dataclass(slots=True)
+class TraceCollection:
+    """Collects the traces of a batch.
+
+    A small batch is recorded while it runs. The cases to draw of a large batch are known only at its end:
+    they are simulated again, which is cheap compared with the batch. So are those of a batch whose recordings
+    are too coarse for the valves, because a page shows every command. Stops with controllers from outside are
+    not `repeatable`: all are recorded while they run, and the traces of those drawn are kept. Those that were
+    `recorded` before have their traces anyway.
+    """
+
+    cases: Sequence[scenario.Case]
+    request: campaign.RecordingRequest
+    needed: bool
+    repeatable: bool = True
+    drawn_first: Collection[str] = ()
+    recorded: bool = False
+    traces: dict[str, report.PlotTrace] = field(default_factory=dict)
+
+    @property
+    def recording(self) -> campaign.RecordingRequest:
+        """What to record while the batch runs."""
+        if not self._while_running:
+            return self.request
+        return self.request._replace(cases="all", band_stops=report.BAND_STOPS)
+
+    def add(self, case_run: campaign.CaseRun) -> None:
+        """Add the trace of a case."""
+        if self._while_running and case_run.recording is not None:
+            trace = report.trace_of_stop(case_run.recording, case_run.result)
+            self.traces[case_run.result.id] = report.with_band(trace, case_run.extremes)
+
+    def finish(
+        self, results: Sequence[evaluation.CaseResult], jobs: int, *, interrupted: bool
+    ) -> dict[str, report.PlotTrace]:
+        """Return the traces; simulate the drawn cases of a large batch again, unless it was interrupted."""
+        drawn = _drawn(results, self.drawn_first)
+        if not self.repeatable:
+            self.traces = {name: trace for name, trace in self.traces.items() if name in drawn}
+        if self.needed and not self._while_running and not interrupted:
+            every = _interval(self.cases, self.request.every)
+            self.traces |= _simulated_again(self.cases, drawn, every, jobs)
+        return self.traces
+
+    @property
+    def _while_running(self) -> bool:
+        small_and_fine = len(self.cases) <= report.DRAWN and self.request.every <= _interval(
+            self.cases, self.request.every
+        )
+        return self.needed and (small_and_fine or self.recorded or not self.repeatable)
+
+
+def with_traces(
+    content: report.RunContent,
+    cases: Sequence[scenario.Case],
+    recordings: Mapping[str, recording.Recording],
+    every: float,
+) -> report.RunContent:
+    """Return a finished run with what a page draws of it: some of its stops, simulated again.
+
+    Of stops that are not repeatable, and without `cases`, it draws those that were recorded.
+
+    Args:
+        content: what reports show of the run.
+        cases: of the run.
+        recordings: of some of them, by id.
+        every: the interval of these, s.
+    """
+    drawn = _drawn(content.all_results, content.drawn_first)
+    if cases and are_repeatable(cases):
+        traces = _simulated_again(cases, drawn, _interval(cases, every), available_processors())
+    else:
+        traces = {
+            name: report.trace_of_stop(recordings[name], result)
+            for name, result in drawn.items()
+            if name in recordings
+        }
+    return replace(content, traces=traces)
+
+
+def are_repeatable(cases: Sequence[scenario.Case]) -> bool:
+    """Return whether the stops of cases come out the same again: no controller is from outside."""
+    return not any(case.is_from_outside for case in cases)
+
+
+def _drawn(
+    results: Sequence[evaluation.CaseResult], drawn_first: Collection[str]
+) -> dict[str, evaluation.CaseResult]:
+    """Return the cases that a page draws, by id."""
+    stopped = [result for result in results if result.outcome != "error"]
+    return {result.id: result for result in report.drawn_cases(stopped, drawn_first)}
+
+
+def _interval(cases: Sequence[scenario.Case], every: float) -> float:
+    """Return the time between two samples of what is drawn, s."""
+    return min(every, campaign.shortest_cycle(cases))
+
+
+def _simulated_again(
+    cases: Sequence[scenario.Case], drawn: Mapping[str, evaluation.CaseResult], every: float, jobs: int
+) -> dict[str, report.PlotTrace]:
+    """Return the traces; of a repeated case the first stop is drawn, before the band of those that follow."""
+    stops = [
+        stop.alone
+        for stop in campaign.stops_of(campaign.by_id(cases, frozenset(drawn)))
+        if stop.repeat < report.BAND_STOPS
+    ]
+    traces: dict[str, report.PlotTrace] = {}
+    extremes: dict[str, list[report.StopExtremes]] = {}
+    for case, samples in campaign.replay(stops, every=every, jobs=jobs):
+        if case.id not in traces:
+            traces[case.id] = report.trace_of_stop(samples, drawn[case.id])
+        extremes.setdefault(case.id, []).append(report.stop_extremes(samples))
+    return {case_id: report.with_band(trace, extremes[case_id]) for case_id, trace in traces.items()}

@@ -16,8 +16,8 @@ from uictest.judging.evaluation import CaseResult, Firmness, RepeatedStop, Repea
 from uictest.plans import scenario, series as series_plans, sweeps
 from uictest.plans.sweeps import Column, RangedNumber
 from uictest.running import campaign, chunked
-from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Advance
+from uictest.runs.scenario_files import InvalidInputError
 
 _TOGETHER: Final = 128
 """Draws of a series whose stops are in memory at a time; chosen."""
@@ -57,7 +57,7 @@ class FirmnessRun:
 
         def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
             results = stops.results(dict(zip(stops.numbers, columns, strict=True)), seeds)
-            return [drawn(each.outcome, each.decided) for [each] in results]
+            return [drawn(result.outcome, result.decided) for [result] in results]
 
         return self._study([stops], stops.numbers, judge, case.scenario.judged_by)
 
@@ -71,8 +71,8 @@ class FirmnessRun:
             for first in range(0, len(seeds), _TOGETHER):
                 rows = np.arange(first, min(first + _TOGETHER, len(seeds)))
                 taken = {key: column.take(rows) for key, column in zip(numbers, columns, strict=True)}
-                of_cases = [each.results(taken, seeds[first : first + rows.size]) for each in cases]
-                verdicts += [_judged(planned, each) for each in zip(*of_cases, strict=True)]
+                of_cases = [case.results(taken, seeds[first : first + rows.size]) for case in cases]
+                verdicts += [_judged(planned, stops) for stops in zip(*of_cases, strict=True)]
             return verdicts
 
         return self._study(cases, numbers, judge, planned.file.criteria)
@@ -91,17 +91,19 @@ class FirmnessRun:
             if criterion.layer == "validity"
         )
         hold = self._hold(numbers) if self.calibration else None
-        random_rail = any(each.case.scenario.rail.variation_in_force for each in cases)
-        repeats = sum(each.case.scenario.repeat for each in cases)
+        random_rail = any(stops.case.scenario.rail.variation_in_force for stops in cases)
+        repeats = sum(stops.case.scenario.repeat for stops in cases)
         study = FirmnessStudy(
             *(list(numbers.values()), judge, hold, validity, self.effort, random_rail),
             expect=lambda stops: self.advance(0, stops * repeats),
         )
         return study.run(
-            on_four_calipers=any(each.on_four_calipers for each in cases),
-            in_survey_steps=any(each.varied.survey for each in cases),
-            calibrated_by=[each.id for each in self.calibration],
-            without_range=[key for each in cases for key in sweeps.numbers_without_range(each.case.scenario)],
+            on_four_calipers=any(stops.on_four_calipers for stops in cases),
+            in_survey_steps=any(stops.varied.survey for stops in cases),
+            calibrated_by=[case.id for case in self.calibration],
+            without_range=[
+                key for stops in cases for key in sweeps.numbers_without_range(stops.case.scenario)
+            ],
         )
 
     def _hold(self, numbers: Mapping[_Identity, RangedNumber]) -> HoldDraws:
@@ -109,9 +111,9 @@ class FirmnessRun:
 
         Raises InvalidInputError for a stop that has none of the numbers.
         """
-        stops = [_VariedStops.of(each, self) for each in self.calibration]
-        for case, own in zip(self.calibration, stops, strict=True):
-            if numbers.keys().isdisjoint(own.numbers):
+        calibrating = [_VariedStops.of(case, self) for case in self.calibration]
+        for case, stops in zip(self.calibration, calibrating, strict=True):
+            if numbers.keys().isdisjoint(stops.numbers):
                 raise InvalidInputError(
                     f"--calibrated-by: {case.id} has none of the numbers that vary, with the same value and"
                     " range: it says nothing of them"
@@ -119,18 +121,18 @@ class FirmnessRun:
 
         def hold(columns: Sequence[Column]) -> list[bool]:
             taken = dict(zip(numbers, columns, strict=True))
-            outcomes = [each.as_expected(taken, len(columns[0])) for each in stops]
+            outcomes = [stops.as_expected(taken, len(columns[0])) for stops in calibrating]
             return [all(of_draw) for of_draw in zip(*outcomes, strict=True)]
 
         return hold
 
     def require_calibration(self) -> None:
         """Raise InvalidInputError where a calibrating stop comes to another outcome itself."""
-        self.advance(0, sum(each.scenario.repeat for each in self.calibration))
-        for each in self.calibration:
-            if not all(_VariedStops.of(each, self).as_expected({}, 1)):
+        self.advance(0, sum(case.scenario.repeat for case in self.calibration))
+        for case in self.calibration:
+            if not all(_VariedStops.of(case, self).as_expected({}, 1)):
                 raise InvalidInputError(
-                    f"--calibrated-by: {each.id} is not {each.scenario.expect} at the nominal values: it says"
+                    f"--calibrated-by: {case.id} is not {case.scenario.expect} at the nominal values: it says"
                     " nothing of others"
                 )
 
@@ -154,7 +156,7 @@ class _VariedStops:
     def of(cls, case: scenario.Case, run: FirmnessRun, *, survey: bool = False) -> _VariedStops:
         """Take a case; with `survey` its stops are of survey steps where these are known to do for it."""
         of_cars = [_numbers_of(car) for car in case.cars]
-        numbers = {identity: number for own in of_cars for identity, number in own.items()}
+        numbers = {identity: number for of_car in of_cars for identity, number in of_car.items()}
         moved = any(car.scenario.rig.topology != "four-caliper" for car in case.cars)
         varied = (
             _varied_train(case, run) if case.train is not None else _varied_car(case, numbers, run, survey)
@@ -178,29 +180,31 @@ class _VariedStops:
             for key, number in self.numbers.items()
         }
         seed = {"seed": sweeps.listed_column([sweeps.ParameterValue(str(k), k) for k in numbers])}
-        settings = [{number.key: drawn[key] for key, number in own.items()} | seed for own in self.of_cars]
+        settings = [
+            {number.key: drawn[key] for key, number in of_car.items()} | seed for of_car in self.of_cars
+        ]
         if isinstance(self.varied, chunked.VariedTrain):
             assert self.case.train is not None
             car = self.case.train.number - 1
-            results = [each[car] for each in self.varied.results(settings, self.run.advance)]
+            results = [of_cars[car] for of_cars in self.varied.results(settings, self.run.advance)]
         else:
             results = self.varied.results(settings[0], self.run.advance)
         return [results[first : first + repeat] for first in range(0, len(results), repeat)]
 
     def as_expected(self, columns: _Columns, count: int) -> list[bool]:
         """Return for each row of the columns whether all stops come to what the case expects."""
-        return [all(stop.as_expected for stop in each) for each in self.results(columns, [0] * count)]
+        return [all(stop.as_expected for stop in stops) for stops in self.results(columns, [0] * count)]
 
 
 def _numbers_of(case: scenario.Case) -> dict[_Identity, RangedNumber]:
-    return {_identity(each): each for each in sweeps.ranged_numbers(case.scenario)}
+    return {_identity(number): number for number in sweeps.ranged_numbers(case.scenario)}
 
 
 def _varied_car(
     case: scenario.Case, numbers: Mapping[_Identity, RangedNumber], run: FirmnessRun, survey: bool
 ) -> chunked.VariedCase:
     changed = replace(case, scenario=_on_four_calipers(case.scenario))
-    keys = [each.key for each in numbers.values()]
+    keys = [number.key for number in numbers.values()]
     in_survey = survey and case.scenario.simulation.time_step == sweeps.REGULAR_STEP
     return chunked.VariedCase(changed, keys, run.jobs, run.run_block, in_survey)
 
@@ -208,8 +212,8 @@ def _varied_car(
 def _varied_train(case: scenario.Case, run: FirmnessRun) -> chunked.VariedTrain:
     """Return the train of a car: that of the case before, where it was a car of the same."""
     assert case.train is not None
-    four = {id(each): _on_four_calipers(each) for each in case.train.scenarios}
-    cars = tuple(four[id(each)] for each in case.train.scenarios)
+    four = {id(stated): _on_four_calipers(stated) for stated in case.train.scenarios}
+    cars = tuple(four[id(stated)] for stated in case.train.scenarios)
     place = replace(case.train, scenarios=cars)
     known = run.trains.get(place.train)
     if known is None or known.case.train is None or known.case.train.scenarios != cars:
@@ -233,16 +237,16 @@ def _judged(planned: series_plans.Series, stops: Sequence[Sequence[CaseResult]])
     """Return the verdicts of a series on the stops of its cases."""
     results = [_repeated(case, of_case) for case, of_case in zip(planned.cases, stops, strict=True)]
     result = judging_series.judge_results(planned, results)
-    return drawn(result.outcome, [each.verdict for each in result.criteria])
+    return drawn(result.outcome, [criterion.verdict for criterion in result.criteria])
 
 
 def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
     """Return a case that holds some stops, for a series, which looks at these alone."""
-    each = tuple(
+    repeats = tuple(
         RepeatedStop(k, stop.outcome, stop.reason, stop.criteria, stop.measures, stop.wheelsets)
         for k, stop in enumerate(stops)
     )
-    return replace(stops[0], id=case.id, repeats=Repeats("all", each))
+    return replace(stops[0], id=case.id, repeats=Repeats("all", repeats))
 
 
 def stops_of_case(case: scenario.Case, settings: campaign.RunSettings) -> int:
@@ -259,7 +263,7 @@ def stops_of_series(planned: series_plans.Series, settings: campaign.RunSettings
 
 
 def _calibrating_stops(settings: campaign.RunSettings) -> int:
-    return EFFORT.draws * sum(each.scenario.repeat for each in settings.calibration)
+    return EFFORT.draws * sum(case.scenario.repeat for case in settings.calibration)
 
 
 @contextmanager

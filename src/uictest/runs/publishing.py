@@ -23,7 +23,7 @@ class Published(NamedTuple):
     Args:
         place: its folder.
         content: what the reports show.
-        document: the text of results.json.
+        publication: what they were written from.
         interrupted: whether an interrupt ended the run.
         index_problem: why the index of all runs or `latest` was not written; empty if both were.
 
@@ -31,7 +31,7 @@ class Published(NamedTuple):
 
     place: Path
     content: report.RunContent
-    document: str
+    publication: report.Publication
     interrupted: bool = False
     index_problem: str = ""
 
@@ -51,14 +51,14 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
             batch._replace(settings=replace(batch.settings, recording=recorded)),
             observer,
             name=folder.name,
-            draws_stops=report.draws_stops(formats),
+            draws_stops=not report.DRAWING.isdisjoint(formats),
             keep=partial(report.write_recording, folder.path),
         )
         if batch.all_cases and not run.content.all_results:
             return None
-        document = _write(folder.path, run.content, formats)
+        publication = _write(folder.path, run.content, formats)
         place = folder.publish()
-    return Published(place, run.content, document, run.interrupted, _index(place))
+    return Published(place, run.content, publication, run.interrupted, _index(place))
 
 
 def publish_run(
@@ -72,9 +72,9 @@ def publish_run(
         for case_id, samples in recordings.items():
             report.write_recording(folder.path, case_id, samples)
         named = replace(content, name=folder.name)
-        document = _write(folder.path, named, formats)
+        publication = _write(folder.path, named, formats)
         place = folder.publish()
-    return Published(place, named, document, index_problem=_index(place))
+    return Published(place, named, publication, index_problem=_index(place))
 
 
 def _index(place: Path) -> str:
@@ -86,11 +86,11 @@ def _folder(output: Path, manifest: report.RunManifest) -> files.RunFolder:
     return files.RunFolder(output, report.run_name(datetime.now(UTC), manifest))
 
 
-def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> str:
-    document = report.write_reports(folder, content)
+def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> report.Publication:
+    publication = report.publication_of_run(content, report.run_texts(content))
+    report.publish(publication, (*report.IN_EVERY_RUN, *formats), folder)
     history.write_entry(folder, content)
-    report.write_formats(folder, content, [each for each in formats if each not in report.IN_EVERY_RUN])
-    return document
+    return publication
 
 
 def holds_sweep(folder: Path) -> bool:
@@ -129,7 +129,7 @@ def result_ids(content: report.RunContent, expression: str) -> frozenset[str]:
     """
     holds = campaign.parse(expression)
     names = {
-        each.id: [each.id, Path(each.scenario).stem, *content.subject(each.id).tags]
-        for each in content.all_results
+        case.id: [case.id, Path(case.scenario).stem, *content.subject(case.id).tags]
+        for case in content.all_results
     }
-    return frozenset(name for name, own in names.items() if holds(campaign.mentioned_in(own)))
+    return frozenset(case_id for case_id, words in names.items() if holds(campaign.mentioned_in(words)))

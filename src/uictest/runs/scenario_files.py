@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from uictest import report
@@ -10,7 +10,6 @@ from uictest.analysis import validation
 from uictest.plans import library, scenario, series
 from uictest.plans.scenario import yaml
 from uictest.running import campaign
-from uictest.runs.errors import InvalidInputError
 
 _DEFAULT_FOLDER = Path("scenarios")
 
@@ -41,8 +40,8 @@ def load_cases(
 
     Raises ScenarioErrors with every diagnostic of every file, and InvalidInputError.
     """
-    places = [path for path in scenario_paths(paths) if not is_series(path)]
-    return scenario.load(places, tuple(overrides or ()), seed, trusted or ()) if places else []
+    named = [path for path in scenario_paths(paths) if not is_series(path)]
+    return scenario.load(named, tuple(overrides or ()), seed, trusted or ()) if named else []
 
 
 def load_cases_and_series(
@@ -55,16 +54,16 @@ def load_cases_and_series(
 
     Raises ScenarioErrors, and InvalidInputError as :func:`load_series`.
     """
-    places = scenario_paths(paths)
+    named = scenario_paths(paths)
     cases: list[scenario.Case] = []
     planned: list[series.Series] = []
     diagnostics: list[yaml.Diagnostic] = []
     try:
-        cases = load_cases(places, overrides, seed, trusted)
+        cases = load_cases(named, overrides, seed, trusted)
     except yaml.ScenarioErrors as errors:
         diagnostics.extend(errors.diagnostics)
     try:
-        planned = load_series(list(series_files(places)), overrides, seed, trusted)
+        planned = load_series(list(series_files(named)), overrides, seed, trusted)
     except yaml.ScenarioErrors as errors:
         diagnostics.extend(errors.diagnostics)
     if diagnostics:
@@ -95,15 +94,17 @@ def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
 def _files(paths: Sequence[Path], pattern: str, is_one: Callable[[Path], bool]) -> Iterator[Path]:
     seen: set[Path] = set()
     for path in paths:
-        below = sorted(path.rglob(pattern), key=Path.as_posix) if path.is_dir() else []
-        shown = (each for each in below if not _hidden(each.relative_to(path)))
-        for file in filter(is_one, shown if path.is_dir() else [path]):
+        files = [path]
+        if path.is_dir():
+            below = sorted(path.rglob(pattern), key=Path.as_posix)
+            files = [file for file in below if not _is_hidden(file.relative_to(path))]
+        for file in filter(is_one, files):
             if file.absolute() not in seen:
                 seen.add(file.absolute())
                 yield file
 
 
-def _hidden(path: Path) -> bool:
+def _is_hidden(path: Path) -> bool:
     return any(part.startswith(".") for part in path.parts)
 
 
@@ -124,24 +125,20 @@ def load_series(
             loaded += series.load_series(path, tuple(overrides or ()), seed, trusted or ())
     if diagnostics:
         raise yaml.ScenarioErrors(diagnostics)
-    _require_distinct(loaded)
-    return loaded
-
-
-def _require_distinct(loaded: Sequence[series.Series]) -> None:
-    file_of: dict[str, Path] = {}
-    for each in loaded:
-        if each.id in file_of:
-            where = f"{each.path} and {file_of[each.id]}"
+    files: dict[str, Path] = {}
+    for planned in loaded:
+        if planned.id in files:
+            where = f"{planned.path} and {files[planned.id]}"
             raise InvalidInputError(
-                f"a second series {each.id!r} in {where}: give every series a name of its own"
+                f"a second series {planned.id!r} in {where}: give every series a name of its own"
             )
-        file_of[each.id] = each.path
+        files[planned.id] = planned.path
+    return loaded
 
 
 def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:
     """Return the message for an empty selection, with the number of cases and series and their tags."""
-    of_series = {tag for each in planned for tag in each.file.tags}
+    of_series = {tag for one in planned for tag in one.file.tags}
     tags = sorted({tag for case in cases for tag in case.scenario.tags} | of_series)
     among = f"{report.counted(len(cases), 'case')}{f' and {len(planned)} series' if planned else ''}"
     return f"nothing selected among {among}; their tags: {', '.join(tags) or 'none'}"
@@ -188,3 +185,56 @@ def read_reference(path: Path) -> validation.ValidationReference:
         raise InvalidInputError(f"{path}: {error.strerror or error}") from error
     except ValueError as error:
         raise InvalidInputError(f"{path}: {error}") from error
+
+
+class InvalidInputError(ValueError):
+    """Arguments or files that cannot be used; each message says what is wrong and what to do instead.
+
+    Args:
+        messages: complete, in the words of any caller.
+        arguments: those that the caller can change, by name; a command shows the options that set them.
+    """
+
+    def __init__(self, *messages: str, arguments: Sequence[str] = ()) -> None:
+        self.messages = messages
+        self.arguments = tuple(arguments)
+        super().__init__(*messages)
+
+    def __str__(self) -> str:
+        return "\n".join(self.messages)
+
+
+def implausible_trains(cases: Iterable[scenario.Case]) -> list[yaml.Diagnostic]:
+    """Return a diagnostic for each derived quantity beyond its span, once for all cases that share it."""
+    figures = dict.fromkeys(
+        (case.path, figure) for case in cases for figure in scenario.car_figures(case.scenario).implausible
+    )
+    return [
+        yaml.diagnose(place, str(figure), key, figure.likely)
+        for path, figure in figures
+        for place, key in [_first_set(path, figure.keys)]
+    ]
+
+
+def place_of_key(path: Path, key: str) -> yaml.Location | None:
+    """Return where a scenario file, or a file that it refers to, sets a key; None where none does."""
+    path = library.named_scenario(path)
+    node: yaml.Node | None = yaml.read_file(path)
+    names = key.split(".")
+    for depth, name in enumerate(names):
+        inner = node.get(name) if isinstance(node, yaml.Map) else None
+        if inner is None:
+            reference = node.get("extends") if isinstance(node, yaml.Map) else node
+            if not isinstance(reference, yaml.Scalar) or not scenario.is_path(reference.text):
+                return None
+            return place_of_key(path.parent / reference.text, ".".join(names[depth:]))
+        node = inner
+    return None if node is None else node.location
+
+
+def _first_set(path: Path, keys: Sequence[str]) -> tuple[yaml.Location, str]:
+    """Return the first of some keys that is set, and where; without any the first key and the whole file."""
+    for key in keys:
+        if (place := place_of_key(path, key)) is not None:
+            return place, key
+    return yaml.whole_file(path), keys[0]

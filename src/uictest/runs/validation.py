@@ -19,10 +19,9 @@ from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
 from uictest.runs.batch import simulate_cases
-from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
-from uictest.runs.recorded_files import RecordedFile, named_map, read_files
-from uictest.runs.scenario_files import is_series, load_series
+from uictest.runs.recorded import RecordedFile, named_map, read_files
+from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
 
 _DISTANCE: Final = "braking_distance_m"
 
@@ -45,7 +44,9 @@ def recorded_stops(
     Raises InvalidInputError where a file cannot be read, or two stops have one id.
     """
     read = dict(plan.inputs)
-    stops = _counted_once([stop for each in plan.comparisons for stop in _stops(plan, each, read, trusted)])
+    stops = _counted_once(
+        [stop for comparison in plan.comparisons for stop in _stops(plan, comparison, read, trusted)]
+    )
     _require_distinct(plan, stops)
     return stops, read
 
@@ -55,7 +56,7 @@ def compared_stop(
 ) -> validation.ComparedStop:
     """Return a recorded stop beside its simulation, if it has one."""
     file = stop.file
-    found = validation.ComparedStop(
+    compared = validation.ComparedStop(
         id=stop.case.id,
         recording=yaml.display_name(file.path),
         sha256=file.digest,
@@ -66,18 +67,18 @@ def compared_stop(
         not_counted=stop.not_counted,
     )
     if file.stop is None or simulated is None:
-        return found
+        return compared
     recorded, _ = field_data.judge_recording(stop.case, file.stop)
-    found = replace(
-        found, recorded=validation.figures_of(recorded), simulated=validation.figures_of(simulated)
+    compared = replace(
+        compared, recorded=validation.figures_of(recorded), simulated=validation.figures_of(simulated)
     )
-    return replace(found, not_counted=found.not_counted or _missing_end(found, simulated))
+    return replace(compared, not_counted=compared.not_counted or _missing_end(compared, simulated))
 
 
 def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
     """Return the conditions of a stop as planned and as recorded."""
     parts = campaign.parts_of_cases([replace(stop.planned.case, id="planned"), stop.case])
-    return [validation.conditions_of(each) for each in parts.values()]
+    return [validation.conditions_of(of_case) for of_case in parts.values()]
 
 
 def _stops(
@@ -172,22 +173,21 @@ def run_validation(
     results = dict(zip((stop.case.id for stop in usable), simulated, strict=True))
     compared = [compared_stop(stop, results.get(stop.case.id)) for stop in stops]
     pairs = list(map(validation.StopUnderConditions, compared, map(conditions_of_stop, stops)))
-    complete = all(each.outcome != "error" for each in simulated)
+    complete = all(result.outcome != "error" for result in simulated)
     return ValidationRun(validation.validation_of(plan, pairs, read), complete)
 
 
 def publish_validation(validated: validation.Validation, arguments: Sequence[str], output: Path) -> Path:
     """Write the files of a validation into a folder of its own below `output`; return it. Raises OSError."""
     manifest = report.run_manifest(arguments, None, validated.inputs, len(validated.stops))
+    publication = report.Publication(
+        document=validation.validation_document(validated),
+        tables=[validation.figures_table(validated), validation.stops_table(validated)],
+        page=lambda: validation.validation_html(validated),
+        texts={validation.RESULT: validation.validation_json(validated)},
+    )
     with files.RunFolder(output, f"validation-{report.run_name(datetime.now(UTC), manifest)}") as folder:
-        for name, text in (
-            (validation.RESULT, validation.validation_json(validated)),
-            ("figures.csv", report.csv_text(*validation.figures_table(validated))),
-            ("stops.csv", report.csv_text(*validation.stops_table(validated))),
-            ("index.html", validation.validation_html(validated)),
-            ("validation.md", report.document_markdown(validation.validation_document(validated))),
-        ):
-            files.write(folder.path, name, text)
+        report.publish(publication, ("csv", "html", "md"), folder.path)
         return folder.publish()
 
 

@@ -1,7 +1,6 @@
 """Closed forms: air in a tank, friction of a caliper and of the contact, the distance of a dry stop."""
 
 import math
-from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any, Final
 
@@ -40,10 +39,6 @@ def _temperature_after(mass: float, temperature: float, gained: float, *, exchan
     return temperature + warming
 
 
-def _filled_tank(stops: KnownStops) -> Answer:
-    return Answer(_RATIO * _WARM, _temperature_after(0.01, _WARM, 0.01))
-
-
 def _blown_down_tank(stops: KnownStops) -> Answer:
     """p(t) = p0 exp(-t C rho0 R T / V) as long as the flow is choked."""
     step, count = 1e-5, 10_000
@@ -56,35 +51,6 @@ def _blown_down_tank(stops: KnownStops) -> Answer:
         temperature = _temperature_after(mass, temperature, -lost, exchange=_ISOTHERMAL)
     rate = _CONDUCTANCE * physics.REFERENCE_DENSITY * _GAS_CONSTANT * _WARM / _VOLUME
     return Answer(math.exp(-rate * step * count), mass * temperature / (begin * _WARM))
-
-
-def _choked_flow(stops: KnownStops) -> Answer:
-    return Answer(1.185e-3, physics.mass_flow(1e5, 0.0, 1.0, 1.0, _CONDUCTANCE, *_LAW))
-
-
-AIR_CHECKS: Final = (
-    Check(
-        "adiabatic-tank",
-        "physics",
-        "an evacuated tank, filled without heat: k T outside",
-        *(_filled_tank, 1e-12, "K"),
-        origin="closed form",
-    ),
-    Check(
-        "isothermal-tank",
-        "physics",
-        "choked blow-down at one temperature: pressure left after 0.1 s, an exponential",
-        *(_blown_down_tank, 1e-5, "1"),
-        origin="closed form",
-    ),
-    Check(
-        "choked-orifice",
-        "physics",
-        "1 l/(s bar) at 1 bar carries the density of ISO 8778",
-        *(_choked_flow, 1e-12, "kg/s"),
-        origin="publication",
-    ),
-)
 
 
 _CLEARANCE: Final = 2.9e-3
@@ -104,24 +70,15 @@ _HALVINGS: Final = 60
 def _play_loop(stops: KnownStops) -> Answer:
     """Area between two lines of the slope s, h apart, over a pressure that runs dp up and down."""
     slope, apart, highest, count = 0.1, 4e3, 4e5, 4000
-    up = [highest * place / count for place in range(count + 1)]
+    up = [highest * k / count for k in range(count + 1)]
     cycle = [*up[:-1], *reversed(up[1:])]
-    first = list(_held_forces([*cycle, *cycle], slope, apart))
-    closed = list(zip(cycle, first[len(cycle) :], strict=True))
-    return Answer(apart * highest - apart**2 / slope, _area(closed))
-
-
-def _held_forces(pressures: Sequence[float], slope: float, apart: float) -> Iterator[float]:
-    force = 0.0
-    for pressure in pressures:
+    forces, force = [], 0.0
+    for pressure in [*cycle, *cycle]:
         force = physics.force_after(force, slope * pressure, slope * pressure + apart)
-        yield force
-
-
-def _area(corners: Sequence[tuple[float, float]]) -> float:
-    """Return the area of a polygon."""
+        forces.append(force)
+    corners = list(zip(cycle, forces[len(cycle) :], strict=True))
     doubled = math.fsum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in pairwise([*corners, corners[0]]))
-    return abs(doubled) / 2.0
+    return Answer(apart * highest - apart**2 / slope, abs(doubled) / 2.0)
 
 
 def _caliper_loop(stops: KnownStops) -> Answer:
@@ -142,24 +99,6 @@ def _moving_pressure(*, squeezing: bool) -> float:
         is_beyond = stroke > _STROKE if squeezing else stroke >= _STROKE
         low, high = (low, middle) if is_beyond else (middle, high)
     return high
-
-
-FRICTION_CHECKS: Final = (
-    Check(
-        "play-loop",
-        "physics",
-        "area of the closed loop of a play between two lines: h dp - h2/s",
-        *(_play_loop, 1e-9, "N Pa"),
-        origin="closed form",
-    ),
-    Check(
-        "caliper-loop",
-        "physics",
-        "width of the caliper's loop: twice the friction over the piston area",
-        *(_caliper_loop, 1e-6, "Pa"),
-        origin="closed form",
-    ),
-)
 
 
 _WHEEL_LOAD: Final = 55e3
@@ -184,31 +123,6 @@ def _share_of_limit(gradient: float, adhesion: float, slip: float) -> float:
     law = _FRICTION, 1.0, 0.0, adhesion, slip
     force, _ = physics.creep_force(slip_speed, _SPEED, _WHEEL_LOAD, _STIFFNESS, *law)
     return force / limit
-
-
-CONTACT_CHECKS: Final = (
-    Check(
-        "creep-without-reduction",
-        "physics",
-        "creep force over Q mu at eps = 1, kA = kS = 1: 1/pi + 1/2",
-        *(lambda stops: Answer(1.0 / math.pi + 0.5, _share_of_limit(1.0, 1.0, 1.0)), 1e-12, "1"),
-        origin="closed form",
-    ),
-    Check(
-        "creep-on-wet-rail",
-        "physics",
-        "the same at eps = 4.467 with the factors of a wet rail (Polach 2005): 0.573",
-        *(lambda stops: Answer(0.573, _share_of_limit(4.467, 0.3, 0.1)), 1e-3, "1"),
-        origin="publication",
-    ),
-    Check(
-        "highest-creep",
-        "physics",
-        "the same while everything slides: the friction limit",
-        *(lambda stops: Answer(1.0, _share_of_limit(1e9, 1.0, 1.0)), 1e-8, "1"),
-        origin="closed form",
-    ),
-)
 
 
 _STOP: Final = "rolling-120"
@@ -254,12 +168,53 @@ def _brake_force(case: scenario.Case, recording: Recording) -> Any:
     return faces * p.parameters.disc_radius * (factors @ clamped)
 
 
-DRY_STOP_CHECKS: Final = (
-    Check(
-        "textbook-stop",
-        "physics",
-        "distance of a stop on a good rail: v0 te + v0^2/(2 a)",
-        *(_distance, _TOLERANCE, "m"),
-        origin="closed form of the rig's own force",
+_CHECKS: Final[tuple[tuple[Any, ...], ...]] = (
+    (
+        *("textbook-stop", "distance of a stop on a good rail: v0 te + v0^2/(2 a)"),
+        *(_distance, _TOLERANCE, "m", "closed form of the rig's own force"),
     ),
+    (
+        *("adiabatic-tank", "an evacuated tank, filled without heat: k T outside"),
+        lambda stops: Answer(_RATIO * _WARM, _temperature_after(0.01, _WARM, 0.01)),
+        *(1e-12, "K", "closed form"),
+    ),
+    (
+        "isothermal-tank",
+        "choked blow-down at one temperature: pressure left after 0.1 s, an exponential",
+        *(_blown_down_tank, 1e-5, "1", "closed form"),
+    ),
+    (
+        *("choked-orifice", "1 l/(s bar) at 1 bar carries the density of ISO 8778"),
+        lambda stops: Answer(1.185e-3, physics.mass_flow(1e5, 0.0, 1.0, 1.0, _CONDUCTANCE, *_LAW)),
+        *(1e-12, "kg/s", "publication"),
+    ),
+    (
+        *("creep-without-reduction", "creep force over Q mu at eps = 1, kA = kS = 1: 1/pi + 1/2"),
+        lambda stops: Answer(1.0 / math.pi + 0.5, _share_of_limit(1.0, 1.0, 1.0)),
+        *(1e-12, "1", "closed form"),
+    ),
+    (
+        "creep-on-wet-rail",
+        "the same at eps = 4.467 with the factors of a wet rail (Polach 2005): 0.573",
+        lambda stops: Answer(0.573, _share_of_limit(4.467, 0.3, 0.1)),
+        *(1e-3, "1", "publication"),
+    ),
+    (
+        *("highest-creep", "the same while everything slides: the friction limit"),
+        lambda stops: Answer(1.0, _share_of_limit(1e9, 1.0, 1.0)),
+        *(1e-8, "1", "closed form"),
+    ),
+    (
+        *("play-loop", "area of the closed loop of a play between two lines: h dp - h2/s"),
+        *(_play_loop, 1e-9, "N Pa", "closed form"),
+    ),
+    (
+        *("caliper-loop", "width of the caliper's loop: twice the friction over the piston area"),
+        *(_caliper_loop, 1e-6, "Pa", "closed form"),
+    ),
+)
+"""Name, what is known, both answers, tolerance, unit, origin."""
+PHYSICS_CHECKS: Final = tuple(
+    Check(name, "physics", what, answer, tolerance, unit, origin=origin)
+    for name, what, answer, tolerance, unit, origin in _CHECKS
 )

@@ -12,7 +12,7 @@ from typing import Final
 
 from uictest import __version__, rig
 from uictest.core import user_cache
-from uictest.selftest.closed_forms import AIR_CHECKS, CONTACT_CHECKS, DRY_STOP_CHECKS, FRICTION_CHECKS
+from uictest.selftest.closed_forms import PHYSICS_CHECKS
 from uictest.selftest.findings import Examination, Finding, Status
 from uictest.selftest.known_stops import (
     Answer,
@@ -20,14 +20,16 @@ from uictest.selftest.known_stops import (
     KnownStops,
     NotCheckedError,
     compiler_version,
+    controller_checks,
+    data_checks,
+    judging_checks,
     reference_version,
+    stop_checks,
 )
-from uictest.selftest.stored_answers import controller_checks, data_checks, judging_checks, stop_checks
 
 _PACKAGES: Final = ("numpy", "scipy", "pydantic", "pyyaml", "pandas", "pyarrow")
 """Those that take part in figures and verdicts."""
 _TRIAL: Final = b"uictest selftest"
-_MOST_NAMED: Final = 5
 
 
 def environment() -> dict[str, str]:
@@ -61,7 +63,6 @@ def _processor() -> str:
 
 
 def _extras() -> Iterator[tuple[str, str]]:
-    """Yield every optional extra of the package, and what of it is installed."""
     own = distribution("uictest")
     for extra in own.metadata.get_all("Provides-Extra") or ():
         if extra == "dev":
@@ -71,31 +72,26 @@ def _extras() -> Iterator[tuple[str, str]]:
             for line in own.requires or ()
             if f'extra == "{extra}"' in line.replace("'", '"') and (match := re.match(r"[\w.-]+", line))
         ]
-        found = {name: _version_of(name) for name in names}
-        missing = [name for name, installed in found.items() if not installed]
-        installed = ", ".join(f"{name} {number}" for name, number in found.items() if number)
-        yield extra, f"absent: {', '.join(missing)}" if missing else f"present: {installed}"
-
-
-def _version_of(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return ""
+        present, absent = [], []
+        for name in names:
+            try:
+                present.append(f"{name} {version(name)}")
+            except PackageNotFoundError:
+                absent.append(name)
+        yield extra, f"absent: {', '.join(absent)}" if absent else f"present: {', '.join(present)}"
 
 
 def _installed_files(stops: KnownStops) -> Answer:
-    files = [each for each in distribution("uictest").files or () if each.parts[0] == "uictest" and each.hash]
+    files = [file for file in distribution("uictest").files or () if file.parts[0] == "uictest" and file.hash]
     if not files:
         raise NotCheckedError(
             "installed from a working tree, which has no list of files: shipped-data compares its data"
         )
-    differ = [str(each) for each in files if not _unchanged(each)]
-    return Answer(0.0, float(len(differ)), ", ".join(differ[:_MOST_NAMED]))
+    differ = [str(file) for file in files if not _unchanged(file)]
+    return Answer(0.0, float(len(differ)), ", ".join(differ[:5]))
 
 
 def _unchanged(file: PackagePath) -> bool:
-    """Return whether an installed file has the digest that the package gives for it."""
     assert file.hash is not None
     try:
         content = Path(str(file.locate())).read_bytes()
@@ -107,8 +103,8 @@ def _unchanged(file: PackagePath) -> bool:
 
 def _cache(stops: KnownStops) -> Answer:
     user_cache.write("selftest", _TRIAL, _TRIAL)
-    found = user_cache.read("selftest", _TRIAL)
-    if found == _TRIAL:
+    content = user_cache.read("selftest", _TRIAL)
+    if content == _TRIAL:
         return Answer("read back", "read back")
     words = "each run identifies compensations again; set UICTEST_CACHE to a folder of your own"
     return Answer("read back", "nothing", words)
@@ -118,10 +114,7 @@ def all_checks(stops: KnownStops) -> tuple[Check, ...]:
     """Return all checks; those of stored stops are asked of `stops`."""
     return (
         *stop_checks(stops),
-        *DRY_STOP_CHECKS,
-        *AIR_CHECKS,
-        *CONTACT_CHECKS,
-        *FRICTION_CHECKS,
+        *PHYSICS_CHECKS,
         *judging_checks(),
         *controller_checks(),
         *data_checks(),
@@ -137,39 +130,18 @@ def examine(stops: KnownStops, checks: Sequence[Check] | None = None) -> Examina
 
 
 def _finding(check: Check, stops: KnownStops) -> Finding:
+    expected: float | str | None = None
+    found: float | str | None = None
     try:
-        answer = check.answer(stops)
+        expected, found, reason = check.answer(stops)
+        if isinstance(expected, str) or isinstance(found, str):
+            agree = expected == found
+        else:  # not `>`: a number that is none must not pass
+            agree = abs(found - expected) <= check.tolerance * abs(expected)
+        status: Status = "pass" if agree else "warning" if check.advisory else "fail"
     except NotCheckedError as error:
-        return _without_answer(check, "skipped", str(error))
+        status, reason = "skipped", str(error)
     except Exception as error:
-        return _without_answer(check, "error", f"{type(error).__name__}: {error}")
-    status = _status(check, answer)
+        status, reason = "error", f"{type(error).__name__}: {error}"
     described = check.id, check.group, check.what
-    return Finding(
-        *described,
-        status,
-        answer.expected,
-        answer.found,
-        check.tolerance,
-        check.unit,
-        answer.words,
-        check.origin,
-    )
-
-
-def _without_answer(check: Check, status: Status, reason: str) -> Finding:
-    described = check.id, check.group, check.what
-    return Finding(*described, status, None, None, check.tolerance, check.unit, reason, check.origin)
-
-
-def _status(check: Check, answer: Answer) -> Status:
-    if _agree(answer.expected, answer.found, check.tolerance):
-        return "pass"
-    return "warning" if check.advisory else "fail"
-
-
-def _agree(expected: float | str, found: float | str, tolerance: float) -> bool:
-    if isinstance(expected, str) or isinstance(found, str):
-        return expected == found
-    # Not `>`: a number that is none must not pass.
-    return abs(found - expected) <= tolerance * abs(expected)
+    return Finding(*described, status, expected, found, check.tolerance, check.unit, reason, check.origin)

@@ -72,18 +72,18 @@ _TAGS: Final[Mapping[str, TestcaseStatus]] = {"fail": "failure", "error": "error
 
 
 _COLUMNS: Final[tuple[Column[Finding], ...]] = (
-    Column(heading="check", text=lambda each: each.id),
-    Column(heading="verdict", text=lambda each: each.status),
-    Column(heading="expected", text=lambda each: _expected(each), rank=1, right=True),
-    Column(heading="found", text=lambda each: _text(each, each.found), rank=1, right=True),
+    Column(heading="check", text=lambda finding: finding.id),
+    Column(heading="verdict", text=lambda finding: finding.status),
+    Column(heading="expected", text=lambda finding: _expected(finding), rank=1, right=True),
+    Column(heading="found", text=lambda finding: _text(finding, finding.found), rank=1, right=True),
     Column(
         heading="within",
-        text=lambda each: f"{100.0 * each.tolerance:.3g} %" if each.tolerance else "exact",
+        text=lambda finding: f"{100.0 * finding.tolerance:.3g} %" if finding.tolerance else "exact",
         rank=3,
         right=True,
     ),
-    Column(heading="unit", text=lambda each: each.unit, rank=3),
-    Column(heading="requirement", text=lambda each: each.requirement, rank=2),
+    Column(heading="unit", text=lambda finding: finding.unit, rank=3),
+    Column(heading="requirement", text=lambda finding: finding.requirement, rank=2),
 )
 
 
@@ -91,18 +91,18 @@ def finding_document(examination: Examination) -> Document:
     """Return what was examined, a table of findings, and what was not as it should be."""
     facts = [f"{name}: {text}" for name, text in examination.about.items() if text]
     heads = [examination.title] if examination.title else facts
-    is_equal = any(each.tolerance is not None for each in examination.findings)
-    columns = [each for each in _COLUMNS if is_equal or each.heading != "within"]
-    table = Table(columns, examination.findings, more="--format json has them")
+    is_equal = any(finding.tolerance is not None for finding in examination.findings)
+    columns = [column for column in _COLUMNS if is_equal or column.heading != "within"]
+    table = Table(columns, examination.findings, all_in="--format json")
     return Document(examination.title, [Lines(heads), table, Lines(list(_remarks(examination)))])
 
 
 def _remarks(examination: Examination) -> Iterator[str]:
-    for each in examination.findings:
-        if each.status != "pass":
-            yield f"{each.status} {each.id}: {each.reason or each.requirement}"
-    statuses = [each.status for each in examination.findings]
-    counts = [f"{statuses.count(each)} {each}" for each in SEVERITY if each in statuses]
+    for finding in examination.findings:
+        if finding.status != "pass":
+            yield f"{finding.status} {finding.id}: {finding.reason or finding.requirement}"
+    statuses = [finding.status for finding in examination.findings]
+    counts = [f"{statuses.count(status)} {status}" for status in SEVERITY if status in statuses]
     yield f"{counted(len(statuses), 'check')}: {', '.join(counts)}"
 
 
@@ -114,29 +114,28 @@ def findings_json(examination: Examination) -> str:
         "status": examination.status,
         "about": dict(examination.about),
         "checks": [
-            {**_entries(each), "expected": _number(each.expected), "found": _number(each.found)}
-            for each in examination.findings
+            {
+                **{name: value for name, value in asdict(finding).items() if value or name != "origin"},
+                "expected": _number(finding.expected),
+                "found": _number(finding.found),
+            }
+            for finding in examination.findings
         ],
     }
     return json.dumps(content, indent=2, allow_nan=False)
 
 
-def _entries(finding: Finding) -> dict[str, Answer]:
-    """Return what a finding has, without an origin where there is none."""
-    return {name: value for name, value in asdict(finding).items() if value or name != "origin"}
-
-
 def findings_suite(examination: Examination) -> Suite:
     """Return one testcase per check."""
     prefix = "uictest.selftest." if examination.kind == "selftest" else ""
-    testcases = [Testcase(f"{prefix}{each.group}", each.id, *_outcome(each)) for each in examination.findings]
+    testcases = []
+    for finding in examination.findings:
+        found = f"{_text(finding, finding.found)} {finding.unit}".rstrip()
+        sentence = f"{finding.requirement}: expected {_expected(finding)}, found {found}"
+        lines = [finding.reason, sentence] if finding.reason else [sentence]
+        status = _TAGS.get(finding.status, "passed")
+        testcases.append(Testcase(f"{prefix}{finding.group}", finding.id, status, lines))
     return Suite(f"uictest {examination.kind}", testcases, properties=examination.about)
-
-
-def _outcome(finding: Finding) -> tuple[TestcaseStatus, list[str]]:
-    answers = f"expected {_expected(finding)}, found {_text(finding, finding.found)} {finding.unit}".rstrip()
-    lines = [finding.reason, f"{finding.requirement}: {answers}"]
-    return _TAGS.get(finding.status, "passed"), [line for line in lines if line]
 
 
 def _number(value: Answer) -> Answer:

@@ -1,4 +1,4 @@
-"""The stops whose bits are known: run on this machine, and their numbers as stored for this version."""
+"""Stored answers: the bits of known stops, the verdicts on a known record, and the data files that ship."""
 
 import hashlib
 import json
@@ -7,7 +7,8 @@ import shutil
 import subprocess
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
+from itertools import islice
 from pathlib import Path
 from typing import Any, Final, Literal, NamedTuple
 
@@ -15,7 +16,10 @@ import numpy as np
 
 from uictest import __version__, rig
 from uictest.core import files
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import evaluation
 from uictest.plans import scenario, templates
+from uictest.recorded import field_data
 
 _FOLDER: Final = Path(__file__).parent / "stops"
 Numbers = Mapping[str, str]
@@ -38,23 +42,15 @@ class KnownStops:
     def in_lanes(self) -> dict[str, Numbers]:
         """Return the numbers of all stops, simulated side by side in the lanes of a register."""
         inputs = [rig.assemble(case) for case in self.cases.values()]
-        points = max(each.rail.shape[1] for each in inputs)
-        records = (
-            np.array([each.parameters for each in inputs]),
-            np.array([each.wheelset_parameters for each in inputs]),
-            np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
-        )
-        batch = rig.run_in_lanes(*records)
-        batch.measures["reference_distance"] = rig.reference_distances(*records)
-        stops = zip(self.cases, *batch, strict=True)
+        stops = zip(self.cases, *rig.run_in_lanes(*rig.stacked(inputs)), strict=True)
         return {name: numbers_of(train, wheelsets) for name, train, wheelsets in stops}
 
 
 def numbers_of(train: Any, wheelsets: Any) -> Numbers:
     """Return every number of the measures of a stop and of its wheelsets as text."""
     numbers = {name: _text(train[name]) for name in train.dtype.names}
-    for place, wheelset in enumerate(wheelsets, start=1):
-        numbers |= {f"wheelset_{place}.{name}": _text(wheelset[name]) for name in wheelset.dtype.names}
+    for number, wheelset in enumerate(wheelsets, start=1):
+        numbers |= {f"wheelset_{number}.{name}": _text(wheelset[name]) for name in wheelset.dtype.names}
     return numbers
 
 
@@ -77,7 +73,7 @@ def inputs_digest(case: scenario.Case) -> str:
 
 
 def _text(number: Any) -> str:
-    return " ".join(repr(float(each)) for each in np.ravel(number))
+    return " ".join(repr(float(value)) for value in np.ravel(number))
 
 
 # As the Makefile of the template has them.
@@ -140,7 +136,13 @@ def python_stop() -> rig.SimulatedStop:
 
 def c_stop() -> rig.SimulatedStop:
     """Return the stop with the controller in C. Raises NotCheckedError where it cannot be built."""
-    return _stop("c", _build)
+
+    def build(folder: Path) -> None:
+        done = subprocess.run([_compiler(), *_FLAGS], cwd=folder, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise NotCheckedError(f"the C compiler failed: {done.stderr.strip()}")
+
+    return _stop("c", build)
 
 
 def _stop(language: templates.Language, build: Callable[[Path], None]) -> rig.SimulatedStop:
@@ -150,12 +152,6 @@ def _stop(language: templates.Language, build: Callable[[Path], None]) -> rig.Si
         build(folder)
         (case,) = scenario.load([folder / "slip-120.yaml"])
         return rig.simulate(case)
-
-
-def _build(folder: Path) -> None:
-    done = subprocess.run([_compiler(), *_FLAGS], cwd=folder, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise NotCheckedError(f"the C compiler failed: {done.stderr.strip()}")
 
 
 def _compiler() -> str:
@@ -181,24 +177,20 @@ _PACKAGE: Final = Path(__file__).parents[1]
 _FOLDERS: Final = ("plans/library", "selftest/stops", "selftest/record", "plans/templates")
 """Where the parts, criteria, known stops and first files of users lie."""
 _LEFT_OUT: Final = {"__pycache__", "scenarios"}
-"""What Python leaves there; the scenarios, which only a wheel has there: every run states their digests."""
+"""Left out, as hidden files of editors are: what Python leaves there, and the scenarios, which only a wheel
+has there and whose digests every run states."""
 
 
 def data_digests(package: Path = _PACKAGE) -> dict[str, str]:
     """Return the SHA-256 of every shipped data file below a package, by its path."""
-    return {
-        path.relative_to(package).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-        for folder in _FOLDERS
-        for path in _files(package / folder)
-    }
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    """Yield the files below a folder, without what Python leaves there and what editors hide."""
-    for path in sorted(folder.rglob("*"), key=Path.as_posix):
-        hidden = any(part.startswith(".") or part in _LEFT_OUT for part in path.relative_to(folder).parts)
-        if path.is_file() and not hidden:
-            yield path
+    digests = {}
+    for folder in (package / name for name in _FOLDERS):
+        for path in sorted(folder.rglob("*"), key=Path.as_posix):
+            parts = path.relative_to(folder).parts
+            left_out = any(part.startswith(".") or part in _LEFT_OUT for part in parts)
+            if path.is_file() and not left_out:
+                digests[path.relative_to(package).as_posix()] = hashlib.sha256(path.read_bytes()).hexdigest()
+    return digests
 
 
 SCHEMA: Final = "uictest/known-stops/1"
@@ -220,29 +212,6 @@ def reference_version() -> str:
     return str(_stored()["version"])
 
 
-def stored_numbers(stop: str) -> Numbers:
-    """Return the stored numbers of a known stop."""
-    numbers: Numbers = _stored()["stops"][stop]["numbers"]
-    return numbers
-
-
-def stored_inputs(stop: str) -> str:
-    """Return the SHA-256 of what the rig was given for a known stop."""
-    return str(_stored()["stops"][stop]["inputs_sha256"])
-
-
-def stored_numbers_from_outside() -> Numbers:
-    """Return the stored numbers of the stop with a controller from outside."""
-    numbers: Numbers = _stored()[_OUTSIDE]
-    return numbers
-
-
-def stored_data_digests() -> Mapping[str, str]:
-    """Return the SHA-256 of every shipped data file of this version, by its path in the package."""
-    digests: Mapping[str, str] = _stored()[_DATA]
-    return digests
-
-
 def computed_reference() -> str:
     """Return the content of the stored file as this installation computes it."""
     stops = KnownStops()
@@ -257,3 +226,160 @@ def computed_reference() -> str:
         _DATA: data_digests(),
     }
     return json.dumps(content, indent=1) + "\n"
+
+
+_MOST_NAMED: Final = 3
+_DIGITS: Final = 12
+"""Of a SHA-256 that are shown."""
+
+
+def stop_checks(stops: KnownStops) -> Iterator[Check]:
+    """Yield two checks of every known stop: what the rig is given, and every number that comes out."""
+    for name, case in stops.cases.items():
+        what = f"SHA-256 of the inputs of {name}"
+        yield Check(f"inputs-of-{name}", "numerics", what, partial(_inputs, name))
+        what = f"SHA-256 of all measures: {case.scenario.title}"
+        yield Check(name, "numerics", what, partial(_alone, name))
+    yield Check("lanes", "lanes", "SHA-256 of all stops, side by side in SIMD lanes", _in_lanes)
+
+
+def _inputs(name: str, stops: KnownStops) -> Answer:
+    expected, computed = _stored()["stops"][name]["inputs_sha256"], inputs_digest(stops.cases[name])
+    words = "parts of the library, or their assembly, are not those of this version"
+    return Answer(expected[:_DIGITS], computed[:_DIGITS], "" if computed == expected else words)
+
+
+def _alone(name: str, stops: KnownStops) -> Answer:
+    return answer_of(_stored()["stops"][name]["numbers"], numbers_of_stop(stops.stop(name)))
+
+
+def _in_lanes(stops: KnownStops) -> Answer:
+    stored = {stop: _stored()["stops"][stop]["numbers"] for stop in stops.cases}
+    expected, computed = (
+        {f"{stop}.{name}": text for stop, numbers in of_stops.items() for name, text in numbers.items()}
+        for of_stops in (stored, stops.in_lanes())
+    )
+    return answer_of(expected, computed)
+
+
+def controller_checks() -> Iterator[Check]:
+    """Yield the checks of a stop whose controller runs in a child process."""
+    what = "SHA-256 of all measures: controller in {} in a child process"
+    for language, run in (("Python", python_stop), ("C", c_stop)):
+        answer = partial(_from_outside, run)
+        yield Check(f"{language.lower()}-controller", "controllers", what.format(language), answer)
+
+
+def _from_outside(run: Callable[[], rig.SimulatedStop], stops: KnownStops) -> Answer:
+    return answer_of(_stored()[_OUTSIDE], numbers_of_stop(run()))
+
+
+def answer_of(expected: Numbers, found: Numbers) -> Answer:
+    """Return the digests of numbers, and in words which differ."""
+    names = dict.fromkeys((*expected, *found))
+    different = [name for name in names if expected.get(name) != found.get(name)]
+    named = "; ".join(
+        f"{name}: expected {expected.get(name, 'no such number')}, found {found.get(name, 'no such number')}"
+        for name in islice(different, _MOST_NAMED)
+    )
+    words = f"{len(different)} of {len(names)} numbers differ: {named}" if different else ""
+    return Answer(digest_of(expected)[:_DIGITS], digest_of(found)[:_DIGITS], words)
+
+
+_MOST_FILES_NAMED: Final = 5
+
+
+def data_checks() -> Iterator[Check]:
+    """Yield the check of the shipped data, which a working tree has as an installed package does."""
+    what = "files of the library, known stops and templates that are not those of this version"
+    yield Check("shipped-data", "environment", what, _shipped_data, unit="files", origin="installed files")
+
+
+def _shipped_data(stops: KnownStops) -> Answer:
+    differ = list(different_files(_stored()[_DATA], data_digests()))
+    more = len(differ) - _MOST_FILES_NAMED
+    rest = f" and {more} more" if more > 0 else ""
+    return Answer(0.0, float(len(differ)), ", ".join(differ[:_MOST_FILES_NAMED]) + rest)
+
+
+def different_files(stored: Mapping[str, str], found: Mapping[str, str]) -> Iterator[str]:
+    """Yield the files that differ, and how."""
+    for name in sorted({*stored, *found}):
+        if name not in found:
+            yield f"{name} is missing"
+        elif name not in stored:
+            yield f"{name} is not part of it"
+        elif stored[name] != found[name]:
+            yield f"{name} was changed"
+
+
+_SPEED: Final = 120.0 * KILOMETRE_PER_HOUR
+_DECELERATION: Final = 1.0
+"""m/s2."""
+_LOCK: Final = (10.0, 10.5, 11.25, 11.75)
+"""When the third wheelset begins to lose its speed, stands still, begins to turn and rolls again, s."""
+_SCENARIO: Final = Path(__file__).parent / "record" / "record.yaml"
+_AT_ZERO: Final = field_data.Preparation.model_validate({"trigger_time": "0 s"})
+"""The brake command is given at the time 0."""
+_VERDICTS: Final = {
+    "distance-met": "pass",
+    "distance-missed": "fail",
+    "lock-met": "pass",
+    "lock-missed": "fail",
+    "lock-of-most": "pass",
+    "reservoir": "inconclusive",
+    "simulation": "not_applicable",
+    "wet": "not_applicable",
+}
+"""Criterion of `record/criteria.yaml` -> its verdict."""
+
+
+def judging_checks() -> Iterator[Check]:
+    """Yield a check of every verdict, of two figures and of the outcome."""
+    of_record = "of a record made by hand: {}"
+    closed_forms = (
+        ("record-distance", "braking distance", "v0^2/(2 a)", "braking_distance_m", "m"),
+        ("record-deceleration", "deceleration", "v0^2/(2 s)", "mean_deceleration_mps2", "m/s2"),
+    )
+    known = {"m": _SPEED**2 / (2.0 * _DECELERATION), "m/s2": _DECELERATION}
+    for name, quantity, formula, column, unit in closed_forms:
+        what, answer = f"{quantity} {of_record.format(formula)}", partial(_figure, column, known[unit])
+        yield Check(name, "judging", what, answer, 1e-6, unit, origin="closed form")
+    for criterion, status in _VERDICTS.items():
+        what, answer = f"verdict {of_record.format(criterion)}", partial(_verdict, criterion, status)
+        yield Check(f"verdict-{criterion}", "judging", what, answer, origin="made by hand")
+    what = f"outcome {of_record.format('two limits missed')}"
+    yield Check(
+        *("record-outcome", "judging", what),
+        lambda stops: Answer("fail", _judged().outcome, _judged().reason),
+        origin="made by hand",
+    )
+
+
+def _figure(column: str, expected: float, stops: KnownStops) -> Answer:
+    measures = _judged().measures
+    assert measures is not None
+    return Answer(expected, measures[column])
+
+
+def _verdict(criterion: str, status: str, stops: KnownStops) -> Answer:
+    verdict = next(verdict for verdict in _judged().criteria if verdict.id == criterion)
+    return Answer(status, verdict.status, verdict.reason)
+
+
+@cache
+def _judged() -> evaluation.CaseResult:
+    (case,) = scenario.load([_SCENARIO])
+    stop = field_data.prepare(_channels(), {}, _AT_ZERO)
+    result, _ = field_data.judge_recording(case, stop)
+    return result
+
+
+def _channels() -> dict[str, field_data.RawChannel]:
+    """Return speeds from a second before the brake command until a second after the stop, at 100 Hz."""
+    time = np.arange(-100, 100 * round(_SPEED / _DECELERATION) + 100) / 100.0
+    speed = np.clip(_SPEED - _DECELERATION * time, 0.0, _SPEED)
+    locked = speed * np.interp(time, _LOCK, (1.0, 0.0, 0.0, 1.0))
+    samples: dict[str, Any] = {"speed": speed}
+    samples |= {f"wheel_speed_{number}": locked if number == 3 else speed for number in (1, 2, 3, 4)}
+    return {name: field_data.RawChannel(name, name, time, values) for name, values in samples.items()}

@@ -58,23 +58,6 @@ def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
     assert recording["brake_line_pressure"][-1] == pytest.approx(2e5, rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        ((), "name one recipe"),
-        (("stepwize",), "stepwise"),
-        (("missing.yaml",), "missing.yaml"),
-        (("stepwise", "--trace", "x.csv"), "name one recipe"),
-        (("--trace", "x.csv"), "x.csv"),
-        (("stepwise", "-o", "x.txt"), ".parquet"),
-        (("stepwise", "--set", "rig.caliper.preload=1"), "has no unit"),
-    ],
-)
-def test_what_cannot_be_used_is_told_and_nothing_is_written(call, workplace, arguments, told):
-    call("bench", *arguments, code=4, says=told)
-    assert list(workplace.iterdir()) == []
-
-
 def test_the_recipes_of_the_library_are_listed_with_its_parts(call):
     listed = set(call("library", "list", code=0).out.split())
     assert {f"benches/{name}" for name in ("stepwise", "triangular", "random", "wsp-cycling")} <= listed

@@ -5,7 +5,7 @@ import pytest
 
 from uictest.core.recording import Recording, parquet_bytes
 from uictest.core.recording.formats import Dialect
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 
 from ..conftest import rolling_train
 
@@ -37,30 +37,6 @@ def test_nothing_is_overwritten_unless_forced(call, recording):
     assert call("export", recording, "--to", "csv").code == 0
     call("export", recording, "--to", "csv", code=4, says="already there")
     assert call("export", recording, "--to", "csv", "--force").code == 0
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["one.parquet", "--to", "xlsx"], "xlsx"),
-        (["one.parquet", "--to", ""], "--to"),
-        (["one.parquet"], "--to"),
-        (["missing.parquet", "--to", "csv"], "missing.parquet"),
-        (["table.csv", "--to", "mat"], "no channel 'time' in seconds"),
-        (["run.csv", "--to", "mat"], "channel 'speed' contains texts, the first in line 3, column 2"),
-        (["one.parquet", "b/one.parquet", "--to", "csv"], "one.csv"),
-        (["one.parquet", "b/one.parquet", "-o", "stop.mf4"], "one file for 2 recordings"),
-    ],
-)
-def test_what_cannot_be_exported_exits_4_and_leaves_nothing(call, recording, arguments, said):
-    recording.rename("one.parquet")
-    Path("b").mkdir()
-    Path("b/one.parquet").write_bytes(Path("one.parquet").read_bytes())
-    Path("table.csv").write_text("a,b\n1,2\n")
-    Path("run.csv").write_text("time [s],speed [m/s]\n0,10\n1,n.a.\n")
-    before = sorted(Path().rglob("*"))
-    call("export", *arguments, code=4, says=said)
-    assert sorted(Path().rglob("*")) == before
 
 
 @pytest.mark.parametrize("suffix", ["csv", "mf4"])

@@ -55,18 +55,3 @@ def test_a_record_that_cannot_tell_exits_1(call, scenario):
     simulated(path, "stop.parquet")
     answer = call("fit", "stop.parquet", "--scenario", path, code=1)
     assert "at least" in answer.out
-
-
-@pytest.mark.parametrize(
-    ("arguments", "what"),
-    [
-        (["stop.parquet", "--break", "10"], "--break"),
-        (["stop.parquet", "--break", "20 m", "--break", "10 m"], "--break"),
-        (["stop.parquet", "--set", "rail.friction=x"], "rail.friction"),
-        (["stop.parquet", "stop.parquet"], "unexpected extra argument"),
-    ],
-)
-def test_what_cannot_be_fitted_exits_4_and_leaves_nothing(call, recorded, arguments, what):
-    answer = call("fit", *arguments, "--scenario", recorded, code=4)
-    assert what in " ".join(answer.err.split())
-    assert not Path("reports").exists()

@@ -113,7 +113,7 @@ def evaluated(call):
 
 def logged(call):
     call("log", "wet.csv", "--map", "map.yaml", "--scenario", "wet.yaml")
-    with Path("reports/latest/campaign_friction.csv").open(encoding="utf-8") as file:
+    with Path("reports/latest/tables/campaign_friction.csv").open(encoding="utf-8") as file:
         [friction] = csv.DictReader(file)
     return measures_of(latest()) | {"friction": float(friction["friction"])}
 
@@ -132,7 +132,7 @@ def series(call):
 
 def validated(call):
     call("validate", "own.validation.yaml")
-    [document] = Path("reports").glob("validation-*/stops.csv")
+    [document] = Path("reports").glob("validation-*/tables/stops.csv")
     with document.open(encoding="utf-8") as file:
         return {row["figure"]: row["recorded"] for row in csv.DictReader(file)}
 

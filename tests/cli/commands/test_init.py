@@ -1,8 +1,11 @@
 import json
+from functools import partial
 from pathlib import Path
 
 import jsonschema
 import yaml
+
+from uictest.selftest.conformance import bench as situations
 
 
 def test_the_first_scenario_is_valid_for_program_and_editor_and_is_met(call):
@@ -23,13 +26,6 @@ def test_every_schema_that_a_shipped_scenario_names_is_written_with_it(call):
         assert "const" in named.read_text("utf-8"), path
 
 
-def test_nothing_is_overwritten(call):
-    call("init")
-    Path("scenarios/first-stop.yaml").write_text("mine")
-    call("init", code=4, says="already there")
-    assert Path("scenarios/first-stop.yaml").read_text() == "mine"
-
-
 def test_the_scenarios_that_ship_come_beside_a_first_one_and_renew_the_schema(call):
     assert call("init").code == 0
     written = Path("schema/scenario.schema.json").read_text("utf-8")
@@ -39,8 +35,16 @@ def test_the_scenarios_that_ship_come_beside_a_first_one_and_renew_the_schema(ca
     assert Path("scenarios/slip-120.yaml").is_file() and Path("scenarios/first-stop.yaml").is_file()
 
 
-def test_a_schema_of_another_program_is_left_alone_and_nothing_is_written(call):
-    Path("schema").mkdir()
-    Path("schema/scenario.schema.json").write_text("{}")
-    call("init", code=4, says="not written by this version of uictest: schema/scenario.schema.json")
-    assert not Path("scenarios").exists()
+def test_a_first_controller_is_checked_with_the_command_that_is_shown(call, monkeypatch):
+    monkeypatch.setattr(situations, "anything", partial(situations.anything, cycles=300))
+    answer = call("init", "controller", "--python", "wsp", code=0)
+    [command] = [line.split() for line in answer.err.splitlines() if "controller check" in line]
+    call(*command[1:], "--html", "check.html", code=0)
+    assert "<h3>" not in Path("check.html").read_text("utf-8")  # nothing is missed: nothing is drawn
+
+
+def test_a_controller_in_c_comes_with_its_header(call):
+    assert call("init", "controller", "--c", "wsp").code == 0
+    assert {path.name for path in Path("wsp").iterdir()} == {
+        *("Makefile", "wsp.c", "uictest_controller.h", "my-wsp.yaml", "slip-120.yaml")
+    }

@@ -1,7 +1,5 @@
 from pathlib import Path
 
-import pytest
-
 
 def test_every_part_is_listed_with_its_title(call):
     lines = call("library", "list").out.splitlines()
@@ -49,28 +47,3 @@ def test_a_users_part_shows_marks_sources_and_what_it_changes(call):
     assert "hold_limit 3 s published bench (threshold: 2 s)" in lines
     assert "vent_watchdog 5 s chosen" in lines
     assert "bench Our bench test of 2024" in lines
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("schema: uictest/scenario/1\nname: a\n", "mine.yaml:1:9: schema: not a part"),
-        ("schema: uictest/controller/1\nextends: threshold\nhold_limit: 3\n", "mine.yaml:3:13: hold_limit"),
-        ("name: mine\n", "not a part: its schema is none"),
-    ],
-)
-def test_a_file_that_is_no_part_exits_4_and_says_where(call, text, message):
-    Path("mine.yaml").write_text(text)
-    answer = call("library", "show", "mine.yaml")
-    assert (answer.code, answer.out) == (4, "")
-    assert message in answer.err
-
-
-@pytest.mark.parametrize(
-    "reference", ["vehicles/intercity", "vehicle/intercity-180", "intercity-180", "\x1b[2J", ""]
-)
-def test_an_unknown_part_exits_4_and_says_what_there_is(call, reference):
-    answer = call("library", "show", reference)
-    assert (answer.code, answer.out) == (4, "")
-    assert "intercity-180" in answer.err or "vehicles/..." in answer.err
-    assert "\x1b" not in answer.err

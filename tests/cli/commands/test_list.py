@@ -17,36 +17,16 @@ def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(call, sce
 
 def test_json(call, scenario):
     scenario("a", "expect: fail\nmatrix:\n  brake.command: [80 %]\n")
-    assert json.loads(call("list", "--format", "json").out) == [
-        {
-            "id": "a[command=80]",
-            "scenario": "scenarios/a.yaml",
-            "title": "",
-            "tags": [],
-            "expect": "fail",
-            "parameters": {"brake.command": "80 %"},
-        }
-    ]
+    (case,) = json.loads(call("list", "--format", "json").out)
+    assert case.pop("parameters") == {"brake.command": "80 %"}
+    of_file = {"scenario": "scenarios/a.yaml", "title": "", "tags": [], "expect": "fail"}
+    assert case == {"id": "a[command=80]", **of_file}
 
 
 def test_a_sweep_that_ships_is_listed_by_name(call, workplace):
     lines = call("list", "slide-80-friction-command").out.splitlines()
     assert lines[0] == "slide-80-friction-command[command=60,friction=0.02]"
     assert len(lines) == len(set(lines)) > 10
-
-
-def test_nothing_selected_exits_5(call, scenario):
-    scenario("a")
-    assert call("list", "-m", "wet").code == 5
-
-
-@pytest.mark.parametrize("columns", ["40", "60", "80", "120"])
-def test_described_cases_keep_to_a_terminal_and_their_ids_stay_whole(call, scenario, monkeypatch, columns):
-    scenario("slide-80-four-caliper", "title: Slide test, a caliper in every module\ntags: [slide]\n")
-    monkeypatch.setattr("uictest.cli.commands.list.terminal_width", lambda stream: int(columns))
-    table = [line for line in call("list", "-v").out.splitlines() if not line.startswith("not shown")]
-    assert max(map(len, table)) <= int(columns)
-    assert "slide-80-four-caliper" in "".join(re.split("  +", line)[0] for line in table[1:])
 
 
 OWN = """\
@@ -91,11 +71,10 @@ def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know_and_can_fail(c
 
 def test_requirements_as_json(call, scenario):
     scenario("a", "requirements: [BR-1]\n" + OWN)
-    of_scenario = {"scenario": "a", "cases": ["a"], "series_ids": []}
-    of_criterion = {"criterion": "short", "profile": "own", "cases": ["a"], "series_ids": []}
+    cases = {"cases": ["a"], "series_ids": []}
+    verified = {"BR-1": {"scenario": "a"}, "BR-2": {"criterion": "short", "profile": "own"}}
     assert json.loads(call("list", "--requirements", "--format", "json").out) == [
-        {"id": "BR-1", "status": "covered", "verified_by": [of_scenario]},
-        {"id": "BR-2", "status": "covered", "verified_by": [of_criterion]},
+        {"id": name, "status": "covered", "verified_by": [by | cases]} for name, by in verified.items()
     ]
 
 
@@ -116,24 +95,14 @@ def test_no_requirement_at_all(call, scenario):
     assert answer.err == "uictest: no scenario, series or criterion names a requirement\n"
 
 
-def test_a_list_that_cannot_be_read_exits_4_and_names_the_line(call, scenario, workplace):
-    scenario("a")
-    (workplace / "all.txt").write_text("BR-1\nBR 2\n")
-    answer = call("list", "--requirements", "--requirement-list", "all.txt", code=4)
-    assert answer.err.startswith("all.txt:2:1: 'BR 2' is not the id of a requirement")
-
-
-@pytest.mark.parametrize("option", [["--requirement-list", "all.txt"], ["--fail-uncovered"]])
-def test_options_of_requirements_need_the_word(call, scenario, option):
-    scenario("a")
-    call("list", *option, code=4, says="add --requirements")
-
-
-@pytest.mark.parametrize("columns", ["40", "80"])
-def test_requirements_keep_to_a_terminal(call, scenario, monkeypatch, columns):
-    scenario("slide-80-four-caliper", "requirements: [BR-WSP-AUTHORITY-12, BR-1]\n" + OWN)
-    width = "uictest.cli.commands.list.terminal_width"
-    monkeypatch.setattr(width, lambda stream: int(columns))
-    lines = call("list", "--requirements").out.splitlines()
-    assert max(len(line) for line in lines if not line.startswith("not shown")) <= int(columns)
-    assert lines[0].split()[0] == "status"
+@pytest.mark.parametrize("columns", [40, 60, 80, 120])
+@pytest.mark.parametrize(("option", "first"), [("-v", "case"), ("--requirements", "status")])
+def test_a_table_keeps_to_a_terminal_and_ids_stay_whole(call, scenario, monkeypatch, columns, option, first):
+    title = "title: Slide test, a caliper in every module\ntags: [slide]\n"
+    scenario("slide-80-four-caliper", f"{title}requirements: [BR-WSP-AUTHORITY-12, BR-1]\n{OWN}")
+    monkeypatch.setattr("uictest.cli.commands.list.terminal_width", lambda stream: columns)
+    table = [line for line in call("list", option).out.splitlines() if not line.startswith("not shown")]
+    assert max(map(len, table)) <= columns
+    assert table[0].split()[0] == first
+    cells = "".join(re.split("  +", line)[0] for line in table[1:])
+    assert option != "-v" or "slide-80-four-caliper" in cells

@@ -63,14 +63,6 @@ def test_a_mistyped_name_has_a_hint_and_the_index_is_written_anew(call, runs):
     assert f"did you mean {runs[0]!r}?" in answer.err
 
 
-@pytest.mark.parametrize("name", ["nothing", "../..", "-o nowhere"])
-def test_what_is_no_run_is_a_usage_error(call, runs, name):
-    Path("nothing").mkdir()
-    answer = call("open", *name.split())
-    assert (answer.code, answer.out) == (4, "")
-    assert answer.err.startswith("uictest: ")
-
-
 def test_a_folder_of_runs_that_are_not_listed_says_why_the_first_is_not(call, runs):
     first = min(runs)
     for name in runs:
@@ -80,12 +72,6 @@ def test_a_folder_of_runs_that_are_not_listed_says_why_the_first_is_not(call, ru
     folder = Path("reports", first)
     (folder / "recordings").mkdir(exist_ok=True)
     call("open", folder, code=4, says=f"{folder} holds no finished run: not read: manifest.json has schema")
-
-
-def test_a_run_without_a_page_says_how_to_write_one(call, scenario, made_up):
-    scenario("stop")
-    call("run", "--report", "csv")
-    call("open", "--last", code=4, says="--format html writes it")
 
 
 def test_an_index_of_somebody_else_is_neither_opened_nor_replaced(call, runs):

@@ -55,8 +55,8 @@ def test_exit_code_is_that_of_the_worst_finding(call, asks, names, code):
 def test_the_table_names_what_was_expected_and_found_to_the_tenth_digit_and_hides_nothing(call, asks):
     asks(*FOUR)
     lines = call("selftest").out.splitlines()
-    assert "tank   pass     1         1.001  1 %     K     a tank" in lines
-    assert "stop   fail     a1        b2     exact         a stop" in lines
+    words = [" ".join(line.split()) for line in lines]
+    assert {"tank pass 1 1.001 1 % K a tank", "stop fail a1 b2 exact a stop"} <= set(words)
     assert lines[-4:] == [
         "fail stop: 1 differs",
         "error creep: ZeroDivisionError: no wheel load",
@@ -79,10 +79,8 @@ def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(width, hid
     [titles] = [line for line in lines if line.startswith("check ")]
     shown = {"verdict", "expected", "found", "within", "unit", "requirement"} - set(hidden)
     assert {title for title in shown | set(hidden) if title in titles} == shown
-    told = [line for line in lines if line.startswith("not shown")]
-    assert told == (
-        [f"not shown for lack of room: {', '.join(hidden)}; --format json has them"] if hidden else []
-    )
+    said = [line for line in lines if line.startswith("not shown")]
+    assert said == [f"not shown for lack of room: {', '.join(hidden)}; --format json has all"] * bool(hidden)
 
 
 def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(call, asks):
@@ -94,18 +92,9 @@ def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(cal
     assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "skipped", "fail"]
     assert (met["expected"], met["found"], met["tolerance"]) == (1.0, 1.001, 0.01)
     assert (nothing["expected"], nothing["found"]) == (300.0, None)
-    assert missed == {
-        "id": "stop",
-        "group": "numerics",
-        "requirement": "a stop",
-        "status": "fail",
-        "expected": "a1",
-        "found": "b2",
-        "tolerance": 0.0,
-        "unit": "",
-        "reason": "1 differs",
-        "origin": "own stored output",
-    }
+    about = {"id": "stop", "group": "numerics", "requirement": "a stop", "origin": "own stored output"}
+    judged = {"status": "fail", "reason": "1 differs", "tolerance": 0.0, "unit": ""}
+    assert missed == {**about, **judged, "expected": "a1", "found": "b2"}
 
 
 def test_junit_has_a_testcase_for_every_question_that_says_why_it_failed(call, asks):

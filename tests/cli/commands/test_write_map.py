@@ -1,5 +1,7 @@
 """`uictest evaluate FILE --write-map MAP`: one command, then the map reads the file."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import yaml
@@ -53,10 +55,7 @@ FILES = {
         ],
         "utf-8",
     ),
-    "no units": (
-        ["t,v_train,v1,v2,v3,v4", *_rows(lambda k: [str(20 * k)], ".", ",")],
-        "utf-16",
-    ),
+    "no units": (["t,v_train,v1,v2,v3,v4", *_rows(lambda k: [str(20 * k)], ".", ",")], "utf-16"),
     "marks and groups": (
         [
             f"Zeit [s];{NAMES};p_BC1 [mbar]",
@@ -86,28 +85,29 @@ FILES = {
 
 
 @pytest.fixture
-def place(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "scn.yaml").write_text(SCENARIO)
-    return tmp_path
+def write_map(call, workplace):
+    """Write a file and the map of it; return the text of the map and what was said."""
+    Path("scn.yaml").write_text(SCENARIO)
+
+    def write(lines, encoding="utf-8", name="a.txt", code=0):
+        Path(name).write_bytes("\n".join(lines).encode(encoding))
+        answer = call("evaluate", name, "--write-map", "lab.yaml", code=code)
+        return Path("lab.yaml").read_text(encoding="utf-8") if code == 0 else "", answer
+
+    return write
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_the_map_that_is_written_reads_the_file(call, place, name):
-    lines, encoding = FILES[name]
-    (place / "a.txt").write_bytes("\n".join(lines).encode(encoding))
-    call("evaluate", "a.txt", "--write-map", "lab.yaml", code=0)
-    written = yaml.safe_load((place / "lab.yaml").read_text(encoding="utf-8"))
-    assert set(written["channels"]) >= {"speed", *(f"wheel_speed_{n}" for n in range(1, 5))}
+def test_the_map_that_is_written_reads_the_file(call, write_map, name):
+    text, _ = write_map(*FILES[name])
+    assert set(yaml.safe_load(text)["channels"]) >= {"speed", *(f"wheel_speed_{n}" for n in range(1, 5))}
     answer = call("evaluate", "a.txt", "--map", "lab.yaml", "--scenario", "scn.yaml", "--trigger", "2 s")
-    assert "braking_distance_m=246.91 " in answer.out, (answer.err, written)
+    assert "braking_distance_m=246.91 " in answer.out, (answer.err, text)
 
 
-def test_what_is_guessed_and_what_is_open_is_marked(call, place):
+def test_what_is_guessed_and_what_is_open_is_marked(write_map):
     lines, encoding = FILES["no units"]
-    (place / "a.txt").write_bytes("\n".join(lines).replace("v1", "Rad 1").encode(encoding))
-    answer = call("evaluate", "a.txt", "--write-map", "lab.yaml", code=0)
-    text = (place / "lab.yaml").read_text(encoding="utf-8")
+    text, answer = write_map([line.replace("v1", "Rad 1") for line in lines], encoding)
     assert 'time: {source: "t", unit: ms}  # guessed: the file does not state the unit' in text
     assert '  speed: {source: "v_train", unit: km/h}  # guessed' in text
     assert "# not assigned: wheel_speed_1; needed for" in text
@@ -115,31 +115,11 @@ def test_what_is_guessed_and_what_is_open_is_marked(call, place):
     assert "lab.yaml: 6 guessed" in answer.out
 
 
-def test_a_map_is_never_replaced_and_written_for_one_file(call, place):
-    (place / "a.csv").write_text("t [s],v [km/h]\n0,80\n1,79\n")
-    (place / "lab.yaml").write_text("mine")
-    for arguments, told in (
-        (("a.csv", "--write-map", "lab.yaml"), "lab.yaml: exists"),
-        (("a.csv", "a.csv", "--write-map", "new.yaml"), "name one FILE"),
-        (("a.csv", "--write-map", "new.csv"), "a channel map is a .yaml file"),
-    ):
-        answer = call("evaluate", *arguments, code=4)
-        assert told in answer.err
-    assert (place / "lab.yaml").read_text() == "mine"
-    assert not (place / "new.yaml").exists()
-
-
-def _written(call, place, lines, encoding="utf-8"):
-    (place / "a.txt").write_bytes("\n".join(lines).encode(encoding))
-    call("evaluate", "a.txt", "--write-map", "lab.yaml", code=0)
-    return (place / "lab.yaml").read_text(encoding="utf-8")
-
-
 @pytest.mark.parametrize(("decimal", "thousands"), [(",", "."), (".", ",")])
-def test_a_sign_in_large_numbers_alone_groups_digits(call, place, decimal, thousands):
+def test_a_sign_in_large_numbers_alone_groups_digits(write_map, decimal, thousands):
     pressures = [lambda k: f"{min(3000, 10 * k):,}".replace(",", thousands)]
     rows = [";".join([str(20 * k), *["80"] * 5, pressures[0](k)]) for k in range(400)]
-    text = _written(call, place, [f"Zeit [ms];{NAMES};p_BC1 [mbar]", *rows])
+    text, _ = write_map([f"Zeit [ms];{NAMES};p_BC1 [mbar]", *rows])
     assert f'thousands: "{thousands}"  # guessed: it stands in numbers from 1{thousands}000 on alone' in text
     assert f'decimal: "{decimal}"' in text or decimal == "."
 
@@ -153,44 +133,32 @@ def test_a_sign_in_large_numbers_alone_groups_digits(call, place, decimal, thous
         ("t [s],v [km/h],MV1", 'valve_command_1: "MV1"  # guessed: 0 and 1 alone'),
     ],
 )
-def test_what_a_unit_or_its_values_alone_say_is_a_guess(call, place, names, marked):
+def test_what_a_unit_or_its_values_alone_say_is_a_guess(write_map, names, marked):
     rows = [f"{0.1 * k + 0.05:.2f},{80 - 0.1 * k:.1f},{k % 2}" for k in range(50)]
-    assert marked in _written(call, place, [names, *rows])
+    assert marked in write_map([names, *rows])[0]
 
 
-def test_five_elements_of_an_array_are_no_wheelsets_and_a_letter_is_a_state(call, place):
+def test_five_elements_of_an_array_are_no_wheelsets_and_a_letter_is_a_state(write_map):
     names = ",".join(["t [s]", "v [km/h]", *(f"v_axle[{k}]" for k in range(5)), "WSP1"])
     rows = [f"{0.1 * k:.1f},80,1,1,1,1,1,{'V' if k == 20 else 0}" for k in range(50)]
-    text = _written(call, place, [names, *rows])
+    text, _ = write_map([names, *rows])
     assert "wheel_speed" not in text.partition("# not assigned")[0]
     assert "missing" not in text
 
 
-def test_other_lines_as_wide_as_the_names_are_named(call, place):
+def test_other_lines_as_wide_as_the_names_are_named(write_map):
     lines = [
         "Kanal 1;Kanal 2",
         "Zeit;v_Zug",
         "s;km/h",
         *(f"{k / 50:.2f};80,5".replace(".", ",") for k in range(50)),
     ]
-    text = _written(call, place, lines)
+    text, _ = write_map(lines)
     assert "header_line: 1  # guessed: or 2, which are as wide" in text
 
 
 @pytest.mark.parametrize("samples", [25, 1262])
-def test_segments_of_labview_are_to_be_divided(call, place, samples):
-    lines, encoding = FILES["LabVIEW"]
-    lines = lines[: 7 + samples]
-    (place / "a.lvm").write_bytes("\n".join([*lines, *lines[3:]]).encode(encoding))
-    second = len(lines) + 3
-    assert (
-        f"line {second} ends the header of another segment"
-        in call("evaluate", "a.lvm", "--write-map", "lab.yaml", code=4).err
-    )
-
-
-def test_an_empty_section_of_a_map_is_told_at_its_place(call, place):
-    (place / "a.csv").write_text("t [s],v [km/h]\n0,80\n1,79\n")
-    (place / "lab.yaml").write_text("schema: uictest/channel-map/1\nname: lab\nchannels: {speed: v}\ncsv:\n")
-    answer = call("evaluate", "a.csv", "--map", "lab.yaml", "--scenario", "scn.yaml", code=4)
-    assert "lab.yaml:4:5: csv: expected a mapping" in answer.err
+def test_segments_of_labview_are_to_be_divided(write_map, samples):
+    lines = FILES["LabVIEW"][0][: 7 + samples]
+    _, answer = write_map([*lines, *lines[3:]], name="a.lvm", code=4)
+    assert f"line {len(lines) + 3} ends the header of another segment" in answer.err

@@ -9,8 +9,8 @@ from hypothesis import given, strategies as st
 from scipy import stats
 
 from uictest.analysis.comparison import Draw, paired_group
-from uictest.analysis.comparison.paired.drawn_stops import drawn_stops
-from uictest.judging.evaluation import EffectiveParts
+from uictest.analysis.comparison.paired_stops import drawn_stops
+from uictest.judging.evaluation import effective_parts
 from uictest.plans.scenario import load
 from uictest.running.campaign import run_cases
 
@@ -125,7 +125,7 @@ def test_a_result_tells_whether_its_rail_varies_at_random(tmp_path, rail, varies
     path = tmp_path / "stop.yaml"
     path.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 9 km/h\n", "utf-8")
     [case] = load([path], [rail])
-    [(draw, _)] = drawn_stops(replace(run_cases([case]).results[0], parts=EffectiveParts().of(case.scenario)))
+    [(draw, _)] = drawn_stops(replace(run_cases([case]).results[0], parts=effective_parts(case.scenario)))
     assert draw.random_rail == varies
 
 

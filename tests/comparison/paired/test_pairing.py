@@ -19,6 +19,8 @@ from uictest.analysis.comparison import (
 from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import RunContent, document_lines
 
+from ..conftest import make_repeated
+
 BEFORE = {1: 500.0, 2: 510.0, 3: 520.0}
 AFTER = {1: 490.0, 2: 501.0, 3: 508.0}
 
@@ -41,7 +43,7 @@ def _single(case, seed, distance, parameters):
     )
 
 
-def test_the_stops_of_a_repeated_case_pair_between_two_runs(make_repeated):
+def test_the_stops_of_a_repeated_case_pair_between_two_runs():
     found = _compared([make_repeated(BEFORE)], [make_repeated(AFTER)])
     (group,) = found.paired.groups
     by_name = {each.quantity: each for each in group.differences}
@@ -54,7 +56,7 @@ def test_the_stops_of_a_repeated_case_pair_between_two_runs(make_repeated):
     assert "energy_residual" not in by_name
 
 
-def test_the_largest_wheelset_of_each_stop_is_compared(make_repeated):
+def test_the_largest_wheelset_of_each_stop_is_compared():
     def with_slides(*slides):
         case, stops = make_repeated(BEFORE), []
         for stop, pair in zip(case.repeats.stops, slides, strict=True):
@@ -70,7 +72,7 @@ def test_the_largest_wheelset_of_each_stop_is_compared(make_repeated):
     assert slide.mean.value == pytest.approx(0.2)
 
 
-def test_cases_that_differ_in_their_seed_alone_are_one_group(make_repeated):
+def test_cases_that_differ_in_their_seed_alone_are_one_group():
     def run(distances):
         return [
             _single(make_repeated({1: 0.0}), seed, distance + shift, {"rail.friction": friction})
@@ -84,7 +86,7 @@ def test_cases_that_differ_in_their_seed_alone_are_one_group(make_repeated):
     assert [group.pairs for group in found.groups] == [3, 3]
 
 
-def test_what_does_not_pair_is_named_with_its_reason(make_repeated):
+def test_what_does_not_pair_is_named_with_its_reason():
     first = [make_repeated(BEFORE), make_repeated(BEFORE, "alone")]
     second = [make_repeated(AFTER, noise_key="00000001")]
     found = _compared(first, second)
@@ -96,7 +98,7 @@ def test_what_does_not_pair_is_named_with_its_reason(make_repeated):
     assert other_noise.startswith("not paired: slip: the stops met other noise: ")
 
 
-def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs(make_repeated):
+def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs():
     alone = _single(make_repeated({1: 0.0}), 1, 500.0, {})
     found = _compared([alone], [_single(make_repeated({1: 0.0}), 1, 490.0, {})])
     assert (found.paired.groups, found.paired.not_paired) == ((), ())
@@ -104,7 +106,7 @@ def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs(make_repea
     assert list(document_lines(comparison_document(_compared(same, same)), None)) == []
 
 
-def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated):
+def test_terminal_json_and_page_have_the_method_and_the_numbers():
     found = _compared([make_repeated(BEFORE)], [make_repeated({**AFTER, 4: 500.0})])
     lines = list(document_lines(comparison_document(found), None))
     paired = lines.index("paired: slip: 3 pairs, seeds 1..3; without a partner: 0 of one, 1 of other")
@@ -127,7 +129,7 @@ def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated):
     assert "Student" in html
 
 
-def test_variants_of_a_run_are_compared_with_the_first(make_repeated):
+def test_variants_of_a_run_are_compared_with_the_first():
     def case(controller, friction, distances):
         parameters = {"rail.friction": friction, "controller": controller}
         case_id = f"slip[friction={friction},controller={controller}]"
@@ -149,7 +151,7 @@ def test_variants_of_a_run_are_compared_with_the_first(make_repeated):
     assert "slip[rail.friction=0.07]" in variants_html("run", found)
 
 
-def test_keys_that_tell_no_variants_apart_are_refused(make_repeated):
+def test_keys_that_tell_no_variants_apart_are_refused():
     run = RunContent("run", [make_repeated(BEFORE, parameters={"controller": "a"})])
     with pytest.raises(ValueError, match="did you mean 'controller'"):
         compare_variants(run, ["controler"])

@@ -5,7 +5,7 @@ from itertools import groupby, pairwise
 import pytest
 
 from uictest.controllers.built_in.threshold import PROBING
-from uictest.core.physics.valves import FILL, HOLD, VENT
+from uictest.core.physics.air import FILL, HOLD, VENT
 
 CYCLE = 0.01
 

@@ -1,7 +1,6 @@
 """Records of stops and wheelsets, each with a sound default and what a test changes."""
 
 import numpy as np
-import pytest
 
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 
@@ -23,7 +22,7 @@ def _record(dtype, fields):
     return records[0]
 
 
-def _stop(**changes):
+def stop(**changes):
     """A sound dry stop from 120 km/h within 465 m, in which no wheelset slid."""
     sound = {
         "initial_speed": 120 * KMH,
@@ -53,7 +52,7 @@ def _stop(**changes):
     return _record(STOP_MEASURES, {**sound, **changes})
 
 
-def _sliding_stop(deceleration=0.07 * G, share=0.75, **changes):
+def sliding_stop(deceleration=0.07 * G, share=0.75, **changes):
     """A stop in which a wheelset slides after a second, from when on the train decelerates evenly (m/s2).
 
     Half of the wheelsets slide at once in a `share` of the time until 60 km/h.
@@ -66,10 +65,10 @@ def _sliding_stop(deceleration=0.07 * G, share=0.75, **changes):
         "adhesion_utilisation": 0.8,
         "has_diagnosis": 1.0,
     }
-    return _stop(**{**slid, **changes})
+    return stop(**{**slid, **changes})
 
 
-def _wheelsets(*slides, **changes):
+def wheelsets(*slides, **changes):
     """One wheelset per slide, the same above every train speed; those above 10 % slide 75 % of the time."""
     records = np.zeros(len(slides), dtype=WHEELSET_MEASURES).view(np.recarray)
     for record, slide in zip(records, slides, strict=True):
@@ -79,18 +78,3 @@ def _wheelsets(*slides, **changes):
     for name, value in changes.items():
         records[name] = value
     return records
-
-
-@pytest.fixture(scope="session")
-def stop():
-    return _stop
-
-
-@pytest.fixture(scope="session")
-def sliding_stop():
-    return _sliding_stop
-
-
-@pytest.fixture(scope="session")
-def wheelsets():
-    return _wheelsets

@@ -6,13 +6,14 @@ import lzma
 import zipfile
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.recording.formats import Dialect, UnreadableError, read_contents
 from uictest.core.recording.formats.file_formats import format_of
+from uictest.core.recording.formats.isolation import read_here
 from uictest.core.recording.formats.pieces import read_pieces
-from uictest.core.recording.formats.reader import read_here
 
 TIME = np.arange(100) * 0.1
 SPEED = 20.0 - TIME
@@ -84,62 +85,90 @@ def _speed(path):
     return group.channels["v_train"]
 
 
-@pytest.mark.parametrize(("suffix", "opened"), [(".gz", gzip.open), (".bz2", bz2.open), (".xz", lzma.open)])
-def test_a_compressed_table_is_read_once_it_is_unpacked(tmp_path, suffix, opened):
-    path = tmp_path / f"stop.csv{suffix}"
-    with opened(path, "wt") as file:
-        file.write(TABLE)
-    with pytest.raises(UnreadableError, match=r"^compressed file: unpack it, and name the file inside$"):
-        read_contents(path)
-    with opened(path, "rb") as file:
-        path.with_suffix("").write_bytes(file.read())
-    np.testing.assert_allclose(_speed(path.with_suffix("")), SPEED, atol=1e-9)
+def _compressed(suffix, opened):
+    def write(folder):
+        path = folder / f"stop.csv{suffix}"
+        with opened(path, "wt") as file:
+            file.write(TABLE)
+        return path
+
+    def unpack(path):
+        with opened(path, "rb") as file:
+            path.with_suffix("").write_bytes(file.read())
+        return path.with_suffix("")
+
+    return "compressed file: unpack it, and name the file inside$", write, unpack
 
 
-def test_a_zip_file_is_no_workbook_and_its_member_is_read(tmp_path):
-    path = tmp_path / "stop.zip"
-    with zipfile.ZipFile(path, "w") as archive:
+def _zip(folder):
+    with zipfile.ZipFile(folder / "stop.zip", "w") as archive:
         archive.writestr("stop.csv", TABLE)
-    with pytest.raises(UnreadableError, match=r"^compressed file: unpack it"):
-        read_contents(path)
+    return folder / "stop.zip"
+
+
+def _unzipped(path):
     with zipfile.ZipFile(path) as archive:
-        archive.extractall(tmp_path)
-    np.testing.assert_allclose(_speed(tmp_path / "stop.csv"), SPEED, atol=1e-9)
+        archive.extractall(path.parent)
+    return path.with_suffix(".csv")
 
 
-@pytest.mark.parametrize("engine", ["openpyxl", "xlsxwriter"])
-def test_a_workbook_is_read_once_its_sheet_is_saved_as_csv(tmp_path, engine):
-    pd = pytest.importorskip("pandas")
-    pytest.importorskip(engine)
-    path = tmp_path / "stop.xlsx"
-    pd.DataFrame({"t [s]": TIME, "v_train [m/s]": SPEED}).to_excel(path, index=False, engine=engine)
-    with pytest.raises(UnreadableError, match=r"^Excel or OpenDocument workbook: save its sheet as CSV$"):
-        read_contents(path)
-    pd.read_excel(path).to_csv(path.with_suffix(".csv"), index=False)
-    np.testing.assert_allclose(_speed(path.with_suffix(".csv")), SPEED, atol=1e-9)
+def _workbook(engine):
+    def write(folder):
+        frame, path = pd.DataFrame({"t [s]": TIME, "v_train [m/s]": SPEED}), folder / "stop.xlsx"
+        pytest.importorskip(engine)
+        frame.to_excel(path, index=False, engine=engine)
+        return path
+
+    def save_as_csv(path):
+        pd.read_excel(path).to_csv(path.with_suffix(".csv"), index=False)
+        return path.with_suffix(".csv")
+
+    return "Excel or OpenDocument workbook: save its sheet as CSV$", write, save_as_csv
 
 
-def test_a_feather_file_is_read_once_it_is_written_as_parquet(tmp_path):
-    pd = pytest.importorskip("pandas")
-    path = tmp_path / "stop.feather"
-    pd.DataFrame({"t": TIME, "v_train": SPEED}).to_feather(path)
-    with pytest.raises(UnreadableError, match=r"pandas\.read_feather\(FILE\)\.to_parquet"):
-        read_contents(path)
-    pd.read_feather(path).to_parquet(tmp_path / "stop.parquet")
-    np.testing.assert_array_equal(_speed(tmp_path / "stop.parquet"), SPEED)
+def _feather(folder):
+    pd.DataFrame({"t": TIME, "v_train": SPEED}).to_feather(folder / "stop.feather")
+    return folder / "stop.feather"
 
 
-def test_another_hdf5_file_is_read_once_its_channels_are_written_as_csv(tmp_path):
-    h5py = pytest.importorskip("h5py")
-    path = tmp_path / "stop.mat"
-    with h5py.File(path, "w") as file:
+def _as_parquet(path):
+    pd.read_feather(path).to_parquet(path.with_suffix(".parquet"))
+    return path.with_suffix(".parquet")
+
+
+def _hdf5(folder):
+    with pytest.importorskip("h5py").File(folder / "stop.mat", "w") as file:
         file["v_train"] = SPEED
-    with pytest.raises(UnreadableError, match=r"^HDF5, not MAT 7\.3: write its channels as CSV or Parquet"):
-        read_contents(path)
-    with h5py.File(path) as file:
+    return folder / "stop.mat"
+
+
+def _channels_as_csv(path):
+    with pytest.importorskip("h5py").File(path) as file:
         lines = [str(value) for value in file["v_train"][:]]
-    (tmp_path / "stop.csv").write_text("\n".join(["v_train", *lines]))
-    np.testing.assert_array_equal(_speed(tmp_path / "stop.csv"), SPEED)
+    path.with_suffix(".csv").write_text("\n".join(["v_train", *lines]))
+    return path.with_suffix(".csv")
+
+
+OBEYED = {
+    "gz": _compressed(".gz", gzip.open),
+    "bz2": _compressed(".bz2", bz2.open),
+    "xz": _compressed(".xz", lzma.open),
+    "zip": ("compressed file: unpack it", _zip, _unzipped),
+    "openpyxl": _workbook("openpyxl"),
+    "xlsxwriter": _workbook("xlsxwriter"),
+    "feather": (r".*pandas\.read_feather\(FILE\)\.to_parquet", _feather, _as_parquet),
+    "hdf5": (r"HDF5, not MAT 7\.3: write its channels as CSV or Parquet", _hdf5, _channels_as_csv),
+}
+"""What the message says, what writes a file that is refused, and what does as the message says."""
+
+
+@pytest.mark.parametrize("name", OBEYED)
+def test_what_is_refused_is_read_once_the_message_is_obeyed(tmp_path, name):
+    message, write, obey = OBEYED[name]
+    path = write(tmp_path)
+    with pytest.raises(UnreadableError, match=f"^{message}"):
+        read_contents(path)
+    np.testing.assert_allclose(_speed(obey(path)), SPEED, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", ["stop.log", "stop", "stop.mat"])

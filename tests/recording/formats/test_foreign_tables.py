@@ -7,7 +7,7 @@ import pytest
 
 from uictest.core.recording.formats import Dialect, UnreadableError
 from uictest.core.recording.formats.file_formats import MOST_CHANNELS
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 
 ROWS = "0.0,80.5,1\n0.1,80.25,2\n0.2,80.0,3\n"
 
@@ -86,6 +86,10 @@ def test_a_byte_order_mark_tells_the_encoding(table, encoding):
         (b"t,v,p\n", "no line of samples follows the names in line 1"),
         (ROWS.encode(), "no line of names stands above the samples"),
         (b"\n \n", "every line is blank or a comment"),
+        (b"# only a comment\n", "every line is blank or a comment"),
+        (b"a" * 2_000_000, "a line of more than 1048576 characters"),
+        (b"\x00" * 5000, "line 1 holds a NUL character"),
+        (b"\xff\xfe" * 2000, "no line of samples follows the names in line 1"),
         (b"," * MOST_CHANNELS, f"line 1 has {MOST_CHANNELS + 1} cells"),
         (b"t,v\n" + b"," * 1_000_000 + b"\n1,2\n", "line 2 has 1000001 cells"),
         (b"t,v\n" + b"1,2\n" * 2000 + b"1," * 400_000, "line 2002 has 400001 cells"),
@@ -98,6 +102,10 @@ def test_a_byte_order_mark_tells_the_encoding(table, encoding):
         "no-rows",
         "no-names",
         "blank",
+        "comment",
+        "long-line",
+        "nothing-but-nul",
+        "no-utf8",
         "too-many",
         "a-million-commas",
         "late-commas",

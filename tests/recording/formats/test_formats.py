@@ -19,8 +19,8 @@ from uictest.core.recording.formats.file_formats import (
     check_size,
     required_module,
 )
+from uictest.core.recording.formats.isolation import read_here
 from uictest.core.recording.formats.layout import names_and_units_of
-from uictest.core.recording.formats.reader import read_here
 
 EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}
 

@@ -103,26 +103,6 @@ def test_a_mat_file_that_unpacks_to_more_than_memory(tmp_path):
     assert "values; at most" in _refused(path)
 
 
-@pytest.mark.parametrize(
-    "content",
-    [
-        b"\x00" * 5000,
-        b"\xff\xfe" * 2000,
-        b"," * 200_000,
-        b"a" * 2_000_000,
-        b"a,b\n1,2\n1,2,3\n",
-        b"# only a comment\n",
-        b"a,b\n",
-        b'a,"b\n1,2\n',
-    ],
-    ids=["nul", "no-utf8", "commas", "long-line", "ragged", "comment", "no-rows", "open-quote"],
-)
-def test_texts_that_are_no_tables(tmp_path, content):
-    path = tmp_path / "table.csv"
-    path.write_bytes(content)
-    _refused(path)
-
-
 def test_names_never_become_paths(written, tmp_path):
     path = tmp_path / "names.csv"
     hostile = ["../../evil", "/etc/passwd", "\x1b[31m", "CON", "a" * 5000, "=cmd()"]

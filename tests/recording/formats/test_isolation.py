@@ -13,12 +13,7 @@ import pytest
 
 from uictest.core import guarded_process
 from uictest.core.guarded_process import GuardedProcess
-from uictest.core.recording.formats import (
-    ReadingInterruptedError,
-    UnreadableError,
-    isolation,
-    read_contents,
-)
+from uictest.core.recording.formats import ReadingInterruptedError, UnreadableError, isolation, read_contents
 
 from ...conftest import read_here
 from ...processes import children_of, has_ended, waited_for

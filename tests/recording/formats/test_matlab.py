@@ -9,7 +9,7 @@ from scipy.io import loadmat, savemat
 
 from uictest.core.recording.formats import Dialect, UnreadableError, read_contents
 from uictest.core.recording.formats.file_formats import MOST_CHANNELS, format_of
-from uictest.core.recording.formats.reader import read_here
+from uictest.core.recording.formats.isolation import read_here
 
 TIME = np.arange(30) * 0.1
 SIGNALS = np.stack([20.0 - TIME, 19.0 - TIME, np.cos(TIME)], axis=1)

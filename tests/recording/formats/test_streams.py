@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.recording import Group
-from uictest.core.recording.formats import Dialect, read_pieces, streams
+from uictest.core.recording.formats import Dialect, mdf, read_pieces, tdms
 from uictest.core.recording.formats.file_formats import UnreadableError
-from uictest.core.recording.formats.streams import in_step
+from uictest.core.recording.formats.pieces import in_step
 
 FAST = 0.001
 
@@ -70,7 +70,8 @@ def test_blocks_know_their_first_row_where_the_file_has_no_times(tmp_path, monke
         with asammdf.MDF() as file:
             file.append([asammdf.Signal(samples, 0.02 * samples, name="v")])
             path = file.save(tmp_path / "a.mf4")
-    monkeypatch.setattr(streams, "AT_ONCE", {"tdms": 7_000, "mdf": 100_000})
+    monkeypatch.setattr(tdms, "AT_ONCE", 7_000)
+    monkeypatch.setattr(mdf, "AT_ONCE", 100_000)
     groups = [group for contents in read_pieces(path, Dialect()) for group in contents.groups]
     assert len(groups) > 1
     assert [group.first_row for group in groups] == [group.channels["v"][0] for group in groups]

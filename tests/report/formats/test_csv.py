@@ -1,69 +1,78 @@
+"""CSV: exact numbers, empty cells for missing ones, no formulas, whatever the texts."""
+
 import csv
 import io
 
-from uictest.report import csv_text
-from uictest.report.formats.csv import (
-    FORMAT,
-    criteria_table,
-    requirements_table,
-    summary_table,
-    wheelsets_table,
-)
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from hypothesis import given, strategies as st
 
-from ..builders import make_content, make_result, make_verdict
+from uictest.core.document import table_of
+from uictest.report.formats.csv import ParquetRows, csv_text
+from uictest.report.words import csv_cell
 
-
-def _rows(table):
-    return list(csv.DictReader(io.StringIO(csv_text(*table))))
+from .made_up import ANY_TEXT, TABLE, TEXTS, table_of_texts
 
 
-def test_the_summary_holds_parameters_as_written_and_figures_exactly():
-    (row,) = _rows(summary_table([make_result(parameters={"brake.command": "90 %", "expect": "fail"})]))
-    assert row["id"] == "dry-120[command=90]"
-    assert row["parameters.brake.command"] == "90 %"
-    assert float(row["energy_residual"]) == 1e-8
-    assert row["initial_adhesion_g"] == ""
-    # A parameter that is called like a column does not hide it.
-    assert (row["parameters.expect"], row["expect"]) == ("fail", "pass")
-    assert (row["outcome"], row["met"]) == ("pass", "true")
+def read(table):
+    return list(csv.DictReader(io.StringIO(csv_text(table))))
 
 
-def test_a_case_that_crashed_is_a_row_without_figures():
-    crashed = make_result(outcome="error", reason="ValueError: x", measures=None, wheelsets=(), criteria=())
-    (row,) = _rows(summary_table([crashed]))
-    assert (row["outcome"], row["met"], row["braking_distance_m"]) == ("error", "false", "")
-    assert _rows(wheelsets_table([crashed])) == []
-    assert _rows(criteria_table([crashed])) == []
+def test_a_cell_is_exact_and_empty_where_there_is_nothing():
+    assert csv_text(TABLE) == (
+        "id,braking_distance_m,share,vents,met,why,never\n"
+        "slide-80[friction=0.10],465.254,0.30000000000000004,7,true,,\n"
+        "wet-80,,0.30000000000000004,0,false,wheelset 2 stands,\n"
+        "dry-120,,0.30000000000000004,12,true,,\n"
+    )
 
 
-def test_cases_with_different_parameters_share_one_header():
-    results = [make_result(parameters={"a.b": "1"}), make_result(parameters={"c": "2"})]
-    rows = _rows(summary_table(results))
-    assert [(row["parameters.a.b"], row["parameters.c"]) for row in rows] == [("1", ""), ("", "2")]
+CELLS = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | ANY_TEXT
 
 
-def test_wheelsets_are_numbered_from_the_leading_end():
-    rows = _rows(wheelsets_table([make_result()]))
-    assert [(row["wheelset"], row["valve_actuations"]) for row in rows] == [(n, n) for n in "1234"]
+@given(st.lists(st.dictionaries(st.sampled_from(["a", "=b", "c d"]), CELLS), max_size=5))
+def test_what_is_read_back_is_what_programs_see(rows):
+    table = table_of("t", rows, ["a"])
+    columns = {csv_cell(column.key): column.key for column in table.for_programs}
+    back = read(table)
+    assert len(back) == len(rows)
+    for found, record in zip(back, table.records, strict=True):
+        for heading, key in columns.items():
+            text, value = found[heading], record[key]
+            if isinstance(value, bool) or value is None:
+                assert text == {True: "true", False: "false", None: ""}[value]
+            else:
+                assert text == csv_cell(value) if isinstance(value, str) else type(value)(text) == value
 
 
-def test_every_criterion_is_a_row_with_its_definition():
-    criteria = (make_verdict(), make_verdict(id="slide", value=None, margin=None, status="not_applicable"))
-    distance, slide = _rows(criteria_table([make_result(criteria=criteria)]))
-    told = [distance[name] for name in ("criterion", "value", "margin", "definition")]
-    assert told == ["braking-distance", "465.25", "24.75", "low_speed_cutoff = 30 km/h"]
-    assert (slide["verdict"], slide["value"]) == ("not_applicable", "")
+@pytest.mark.parametrize("text", TEXTS)
+def test_no_text_is_a_formula_or_leaves_its_cell(text):
+    (row,) = read(table_of_texts([text]))
+    assert row["text"] == row["name"] == csv_cell(text)
+    assert row["text"].isprintable()
 
 
-def test_requirements_have_a_column_and_a_table_of_their_own():
-    verdict = make_verdict(requirements=("BR-2", "BR-1"))
-    named = make_result(id="a", test_case="TC-1", requirements=("BR-10", "BR-9"), criteria=(verdict,))
-    (row,) = _rows(summary_table([named]))
-    assert (row["test_case"], row["requirements"]) == ("TC-1", "BR-10; BR-9")
-    assert [row["requirements"] for row in _rows(criteria_table([named]))] == ["BR-2; BR-1"]
-    rows = _rows(requirements_table([named]))
-    criteria = {"BR-1": "braking-distance", "BR-2": "braking-distance", "BR-9": "", "BR-10": ""}
-    assert {row["requirement"]: row["criteria"] for row in rows} == criteria
-    assert {(row["status"], row["id"], row["verdict"]) for row in rows} == {("met", "a", "pass")}
-    assert [row["requirement"] for row in rows] == list(criteria)
-    assert set(FORMAT.files(make_content(make_result()))) == {"summary.csv", "wheelsets.csv", "criteria.csv"}
+@pytest.mark.parametrize("count", [0, 3, 2500])
+def test_rows_of_a_parquet_file_are_counted_read_in_order_and_written_alike(tmp_path, count):
+    path = tmp_path / "summary.parquet"
+    rows = [
+        {"id": f"=case-{k}", "index": k, "met": k > 1, "margin": None if k % 2 else 0.1 * k}
+        for k in range(count)
+    ]
+    schema = pa.schema({"id": pa.string(), "index": pa.int64(), "met": pa.bool_(), "margin": pa.float64()})
+    pq.write_table(pa.Table.from_pylist(rows, schema), path)
+    table = ParquetRows(path).table("summary")
+    assert (len(table.rows), table.file, table.more) == (count, "summary.csv", "summary.parquet")
+    assert list(table.records) == rows
+    back = read(table)
+    assert [row["id"] for row in back] == [f"'=case-{k}" for k in range(count)]
+    assert [row["margin"] and float(row["margin"]) for row in back] == [
+        "" if row["margin"] is None else row["margin"] for row in rows
+    ]
+
+
+def test_a_damaged_file_has_no_rows(tmp_path):
+    (tmp_path / "summary.parquet").write_bytes(b"PAR1 of a kind")
+    with pytest.raises(ValueError, match="Parquet"):
+        ParquetRows(tmp_path / "summary.parquet").table("summary")

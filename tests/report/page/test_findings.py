@@ -1,28 +1,23 @@
-"""What a page answers first: what is not as expected, by how much and where."""
+"""What a page answers first: what is not as expected, by how much and where, and what runs it again."""
 
 import re
 from dataclasses import replace
 
+import pytest
+
 from uictest.judging.evaluation import AppliedDefinition
-from uictest.report.close_calls import MOST_CLOSE, NARROW, TITLE
+from uictest.report import CASES_IN_PYTHON, RunManifest
+from uictest.report.case_lines import MOST_CLOSE, NARROW, TITLE
 from uictest.report.content import CaseDescription
+from uictest.report.page.findings import rerun_command
+from uictest.report.page.margins import margins_of
 from uictest.report.page.run_page import page_html
-from uictest.report.page.stop.margins import margins_of
 from uictest.report.traces.trace import trace_of
 
 from ..builders import make_content, make_recording, make_result, make_verdict
 
-_LOCKED = make_verdict(
-    id="locked-wheels",
-    layer="requirement",
-    value=3.5,
-    unit="s",
-    lower=None,
-    upper=1.0,
-    margin=-2.5,
-    status="fail",
-    measure="longest_locked_time",
-)
+_SECONDS = {"unit": "s", "lower": None, "upper": 1.0, "status": "fail", "layer": "requirement"}
+_LOCKED = make_verdict(id="locked-wheels", value=3.5, margin=-2.5, measure="longest_locked_time", **_SECONDS)
 
 
 def _failing(case_id, *verdicts, **changes):
@@ -39,29 +34,32 @@ def _first(html):
 
 
 def test_what_failed_stands_first_with_value_limit_and_margin():
-    html = page_html(make_content(make_result(id="fine"), _failing("slides")))
+    html = page_html(make_content(make_result(id="fine"), _failing("slides", _LOCKED, make_verdict())))
     said = _first(html)
     assert "Not as expected" in said
     assert "locked-wheels 3.5 s, upper limit 1 s, margin -2.5 s (-250 %)" in said
     assert 'href="#case-slides"' in html[: html.index('id="verdicts"')]
-    assert "fine" not in said.partition(TITLE)[0]
+    findings = said.partition(TITLE)[0]
+    assert "fine" not in findings
+    assert "braking-distance" not in findings  # a criterion that passes is no reason for a failure
 
 
-def test_a_criterion_that_passes_is_no_reason_for_a_failure():
-    said = _first(page_html(make_content(_failing("slides", _LOCKED, make_verdict()))))
-    assert "braking-distance" not in said.partition(TITLE)[0]
+_BROKEN = make_result(outcome="error", criteria=(), measures=None, wheelsets=(), reason="the FMU stopped")
 
 
-def test_a_case_that_fails_as_expected_is_no_finding():
-    said = _first(page_html(make_content(_failing("slides", expect="fail"))))
-    assert "All as expected" in said
-    assert "locked-wheels" not in said
-
-
-def test_an_unexpected_pass_says_what_was_expected():
-    said = _first(page_html(make_content(make_result(expect="fail"))))
-    assert "unexpected pass" in said
-    assert "Expected: fail" in said
+@pytest.mark.parametrize(
+    ("result", "said", "not_said"),
+    [
+        (_failing("slides", expect="fail"), ["All as expected"], "locked-wheels"),
+        (make_result(expect="fail"), ["unexpected pass", "Expected: fail"], "All as expected"),
+        (_BROKEN, ["the FMU stopped"], "All as expected"),
+    ],
+    ids=["fails-as-expected", "unexpected-pass", "error"],
+)
+def test_a_finding_is_what_is_not_as_expected(result, said, not_said):
+    first = _first(page_html(make_content(result)))
+    assert [words for words in said if words not in first] == []
+    assert not_said not in first
 
 
 def test_a_finding_states_its_conditions_and_of_several_wheelsets_the_worst():
@@ -81,11 +79,6 @@ def test_a_finding_states_its_conditions_and_of_several_wheelsets_the_worst():
     said = _first(page_html(content))
     assert "initial speed 120 km/h; rail wet, friction 0.09; expected: pass" in said
     assert "wheelsets 2 and 4, worst: wheelset 2 at 10 to 12 s" in said
-
-
-def test_an_error_shows_its_reason():
-    broken = make_result(outcome="error", criteria=(), measures=None, wheelsets=(), reason="the FMU stopped")
-    assert "the FMU stopped" in _first(page_html(make_content(broken)))
 
 
 def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named():
@@ -117,16 +110,23 @@ def test_many_findings_are_counted_and_none_is_lost():
     assert len(re.findall(r"<tr [^>]*data-word=\"fail\"", html)) == 15
 
 
-def test_a_cell_of_the_matrix_is_shaped_by_its_margin():
-    def kind(**changes):
-        own = margins_of([make_verdict(**changes)])
-        return (*own.judged, *own.not_applicable)[0].kind
+_AT_NARROW = 490.0 * NARROW / 100
+_NONE = {"value": None, "margin": None}
 
-    assert kind(margin=490.0 * NARROW / 100 - 0.1) == "narrow"
-    assert kind(margin=490.0 * NARROW / 100 + 0.1) == "pass"
-    assert kind(margin=-1.0, status="fail") == "fail"
-    assert kind(status="inconclusive", value=None, margin=None) == "inconclusive"
-    assert kind(status="not_applicable", value=None, margin=None) == "not-judged"
+
+@pytest.mark.parametrize(
+    ("changes", "kind"),
+    [
+        ({"margin": _AT_NARROW - 0.1}, "narrow"),
+        ({"margin": _AT_NARROW + 0.1}, "pass"),
+        ({"margin": -1.0, "status": "fail"}, "fail"),
+        ({"status": "inconclusive", **_NONE}, "inconclusive"),
+        ({"status": "not_applicable", **_NONE}, "not-judged"),
+    ],
+)
+def test_a_cell_of_the_matrix_is_shaped_by_its_margin(changes, kind):
+    margins = margins_of([make_verdict(**changes)])
+    assert [margin.kind for margin in (*margins.judged, *margins.not_applicable)] == [kind]
 
 
 def test_what_does_not_apply_is_told_from_what_a_case_is_not_judged_by():
@@ -145,3 +145,34 @@ def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_count
     assert "zz-missed" in table[: table.index("</thead>")]
     rows = re.findall(r"<tr [^>]*data-word.*?</tr>", table, re.S)
     assert [row.count("number criterion") for row in rows] == [10, 10]
+
+
+@pytest.mark.parametrize(
+    ("typed", "kept"),
+    [
+        ("scenarios -k slip -n 2 -o out --record all", ""),
+        ("--set rail.friction=0.09 --seed 3 -x", "--set rail.friction=0.09 --seed 3 "),
+        (
+            "--seed=3 --repeat 5 --trust more -q --in-process",
+            "--seed=3 --repeat 5 --trust more --in-process ",
+        ),
+    ],
+)
+def test_what_changes_a_case_is_kept_and_nothing_else(typed, kept):
+    manifest = RunManifest(command=("uictest", "run", *typed.split()))
+    assert rerun_command(manifest, "a/slip.yaml", "slip") == f"uictest run a/slip.yaml {kept}-k slip"
+
+
+@pytest.mark.parametrize("command", [("evaluate", "a.csv"), (), ("run", CASES_IN_PYTHON, "a.yaml")])
+def test_recorded_stops_and_cases_that_a_program_may_have_changed_have_no_such_command(command):
+    assert rerun_command(RunManifest(command=("uictest", *command)), "a.yaml", "a") == ""
+
+
+def test_what_the_shell_would_read_is_quoted_and_a_file_like_an_option_is_still_a_file():
+    manifest = RunManifest(command=("uictest", "run", "--seed", "3", "--", "-x.yaml"))
+    assert rerun_command(manifest, "-x.yaml", "x") == "uictest run ./-x.yaml --seed 3 -k x"
+    manifest = RunManifest(command=("uictest", "run", "--set", "rail.friction=0.08, 0.09"))
+    command = rerun_command(manifest, "my stops.yaml", "slip[friction=0.08]; rm x")
+    assert command == (
+        "uictest run 'my stops.yaml' --set 'rail.friction=0.08, 0.09' -k 'slip[friction=0.08]; rm x'"
+    )

@@ -1,12 +1,14 @@
 import sys
 from types import SimpleNamespace
+from urllib.parse import unquote
 
 import pytest
-from jinja2 import DictLoader, Environment, meta
+from hypothesis import given, strategies as st
+from jinja2 import DictLoader, Environment
 from markupsafe import Markup
 
 from uictest.report.page import page_html, rendering
-from uictest.report.page.rendering import TemplateCache
+from uictest.report.page.rendering import TemplateCache, case_anchor, fragment
 from uictest.report.traces.trace import trace_of
 
 from ..builders import make_content, make_recording, make_result
@@ -19,22 +21,21 @@ def test_what_cannot_be_seen_is_spelled_out_and_markup_of_ours_is_left_alone():
     assert rendering._visible(3) == 3
 
 
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """An empty cache of its own; what earlier programs left in the temporary folder is not seen."""
+    (tmp_path / "file").write_text("not a folder")
+    (tmp_path / "cache").mkdir()
+    monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "file"))
+    return tmp_path / "cache"
+
+
 def _rendered(source):
     environment = Environment(
         loader=DictLoader({"page": source}), bytecode_cache=TemplateCache(), autoescape=True
     )
     return environment.get_template("page").render(name="WSP")
-
-
-@pytest.mark.parametrize("name", sorted(rendering._templates()))
-def test_a_template_is_loaded_with_all_that_it_refers_to(name):
-    environment, names = rendering._environment(), [name]
-    for each in names:
-        named = meta.find_referenced_templates(environment.parse(rendering._templates()[each]))
-        names += set(named) - set(names)
-    environment.cache.clear()
-    rendering.load_template(name)
-    assert {loaded for _, loaded in environment.cache} == set(names)
 
 
 def test_a_template_is_compiled_once(cache, monkeypatch):
@@ -81,3 +82,16 @@ def test_without_the_plotting_script_a_page_keeps_its_drawings_and_says_why(dama
     assert "alert(1)" not in html
     assert '<svg class="panels"' in html
     assert "The plots do not answer: uPlot 1.6.31 is not" in html
+
+
+@given(st.text())
+def test_a_fragment_is_the_anchor_once_it_is_decoded(case_id):
+    link = fragment(case_anchor(case_id))
+    assert link.isascii()
+    assert link.isprintable()
+    assert not set(link) & set(" #<>\"'[]")
+    assert unquote(link) == case_anchor(case_id)
+
+
+def test_the_anchor_of_a_case_depends_on_its_id_alone():
+    assert fragment(case_anchor("slide-80[compensation=none]")) == "case-slide-80%5Bcompensation%3Dnone%5D"

@@ -1,20 +1,17 @@
 """Controllers that fail in every way, as files beside a scenario."""
 
-import os
 import shutil
-import subprocess
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from uictest.controllers import HEADER
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.external.block import BlockInputs
 from uictest.rig.external.workers import Workers
+
+from ...c_compiler import build_library
 
 HERE = Path(__file__).parent
 Compile = Callable[..., Path]
@@ -42,15 +39,11 @@ def folder(_place, monkeypatch):
 @pytest.fixture(scope="session")
 def _built(tmp_path_factory):
     """Compile bad.c, once for each set of options."""
-    compiler = shutil.which(os.environ.get("CC", "gcc"))
-    if compiler is None:
-        pytest.skip("no C compiler")
 
     @cache
     def built(*options):
         library = tmp_path_factory.mktemp("bad") / "libbad.so"
-        command = [compiler, "-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", *options]
-        subprocess.run([*command, "-o", library, HERE / "bad.c"], check=True)
+        build_library(library, *options, HERE / "bad.c")
         return library
 
     return built
@@ -87,16 +80,3 @@ def workers():
     """Child processes that the tests of a module share."""
     with Workers() as open_workers:
         yield open_workers
-
-
-@pytest.fixture(scope="session")
-def block_of():
-    """Put stops into a block."""
-
-    def block(stops):
-        programs, configs = ([getattr(stop, name) for stop in stops] for name in ("program", "config"))
-        records = ("parameters", "wheelset_parameters", "rail")
-        numbers = (np.array([getattr(stop, name) for stop in stops]) for name in records)
-        return BlockInputs(programs, configs, *numbers)
-
-    return block

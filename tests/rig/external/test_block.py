@@ -1,24 +1,22 @@
 """Stops in one block: in lanes where the controller says that it runs beside others, else one by one."""
 
 import json
-import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from uictest.controllers import EXCHANGE, HEADER
-from uictest.controllers.adapters import registered
+from uictest.controllers import EXCHANGE
+from uictest.controllers.adapters import python_class
 from uictest.plans.scenario import load, load_part
+from uictest.rig import lanes
 from uictest.rig.assembly import assemble
-from uictest.rig.backends import lanes
-from uictest.rig.external.block import run_block
-from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.in_process import BlockInputs, run_block, run_in_process
 from uictest.rig.external.workers import Workers
 
+from ...c_compiler import build_library
 from ...stop_bits import stop_bits
 
 ENTRY_POINTS = "[uictest.controllers]\nacme-class = bad:Bad\n"
@@ -37,20 +35,16 @@ def package(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(site))
         patch.setenv("PYTHONPATH", str(site))
-        registered._loaded.cache_clear()
+        python_class._registered_class.cache_clear()
         yield
-    registered._loaded.cache_clear()
+    python_class._registered_class.cache_clear()
     sys.modules.pop("bad", None)
 
 
 @pytest.fixture(scope="module")
 def _twin(tmp_path_factory):
-    compiler = shutil.which(os.environ.get("CC", "gcc"))
-    if compiler is None:
-        pytest.skip("no C compiler")
     library = tmp_path_factory.mktemp("twin") / "libtwin.so"
-    command = [compiler, "-O2", "-ffp-contract=off", "-fPIC", "-shared", f"-I{HEADER.parent}"]
-    subprocess.run([*command, "-o", library, TWIN, "-lm"], check=True)
+    build_library(library, TWIN)
     return library
 
 
@@ -93,7 +87,7 @@ def bits(run, place=()):
 
 
 @pytest.mark.usefixtures("package", "twin")
-def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, block_of, ran_in_lanes):
+def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, ran_in_lanes):
     """Whatever stands between them in the block; a class of a package runs one by one."""
     library()
     frictions = (0.06, 0.08, 0.11)
@@ -104,7 +98,7 @@ def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, block
         *stops("{library: libbad.so, parameters: {fault: none, at: 0}}", 0.08),
         *twins(0.14),
     ]
-    run = run_block(block_of(inputs))
+    run = run_block(BlockInputs.of(inputs))
     assert run.failures == [""] * 9
     assert ran_in_lanes == [8]
     for place, stop in enumerate(inputs):
@@ -117,16 +111,16 @@ def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, block
 
 
 @pytest.mark.usefixtures("folder")
-def test_no_stop_is_blamed_for_a_failure_that_another_notes_on_it(library, block_of):
+def test_no_stop_is_blamed_for_a_failure_that_another_notes_on_it(library):
     library()
     bad = "{{library: libbad.so, parameters: {{fault: {}, at: 7}}}}"
     inputs = [*stops(bad.format("none"), 0.08), *stops(bad.format("others-forbidden"), 0.08)]
     told = "controller: some controller of the process wrote beyond its outputs"
-    assert run_block(block_of(inputs)).failures == [told, ""]
+    assert run_block(BlockInputs.of(inputs)).failures == [told, ""]
 
 
 @pytest.mark.usefixtures("package", "twin")
-def test_a_controller_that_fails_ends_its_own_stop_alone(library, block_of, ran_in_lanes):
+def test_a_controller_that_fails_ends_its_own_stop_alone(library, ran_in_lanes):
     library()
     inputs = [
         *stops("{library: libbad.so, parameters: {fault: create, at: 0}}", 0.08),
@@ -136,7 +130,7 @@ def test_a_controller_that_fails_ends_its_own_stop_alone(library, block_of, ran_
         *twins(0.06),
     ]
     exchanges = np.zeros(5, EXCHANGE)
-    run = run_block(block_of(inputs), exchanges)
+    run = run_block(BlockInputs.of(inputs), exchanges)
     expected = (
         "controller: uictest_create failed: ",
         "",
@@ -154,7 +148,7 @@ def test_a_controller_that_fails_ends_its_own_stop_alone(library, block_of, ran_
 
 
 @pytest.mark.usefixtures("package", "folder")
-def test_a_block_in_a_child_process_has_the_bits_of_one_here(library, block_of):
+def test_a_block_in_a_child_process_has_the_bits_of_one_here(library):
     """Of a library, whose stops run in lanes, and of a class, whose stops run one by one."""
     library()
     inputs = [
@@ -163,6 +157,6 @@ def test_a_block_in_a_child_process_has_the_bits_of_one_here(library, block_of):
         for stop in stops(f"{{{kind}, parameters: {{fault: none, at: 0}}}}", 0.06, 0.09)
     ]
     with Workers() as workers:
-        there = workers.run_block(block_of(inputs))
+        there = workers.run_block(BlockInputs.of(inputs))
     assert there.failures == [""] * 4
-    assert bits(there) == bits(run_block(block_of(inputs)))
+    assert bits(there) == bits(run_block(BlockInputs.of(inputs)))

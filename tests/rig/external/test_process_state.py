@@ -8,10 +8,9 @@ import pytest
 
 from uictest.controllers import Config
 from uictest.rig.external import drives
-from uictest.rig.external.block import run_block
-from uictest.rig.external.in_process import empty_exchange, run_in_process
+from uictest.rig.external.in_process import BlockInputs, empty_exchange, run_block, run_in_process
 from uictest.rig.external.process_state import ProcessState
-from uictest.selftest.conformance.situations import good_rail
+from uictest.selftest.conformance.bench import good_rail
 
 from ...stop_bits import stop_bits
 
@@ -79,9 +78,9 @@ def test_loading_a_library_changes_nothing_either(stop_of, library, what):
     assert traces(stop_of(library=f"lib{what}.so")) == (f"{TOLD[what]} after loading or create",)
 
 
-def test_stops_in_lanes_have_the_bits_of_a_controller_that_leaves_the_modes_alone(stop_with, block_of):
+def test_stops_in_lanes_have_the_bits_of_a_controller_that_leaves_the_modes_alone(stop_with):
     faults = ["none", "rounding:step", "rounding:create", "none", "rounding:destroy", "none"]
-    run = run_block(block_of([stop_with(fault, "c") for fault in faults]))
+    run = run_block(BlockInputs.of([stop_with(fault, "c") for fault in faults]))
     assert run.failures == [""] * len(faults)
     assert len({stop_bits(*each) for each in zip(run.measures, run.wheelset_measures, strict=True)}) == 1
 

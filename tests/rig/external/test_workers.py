@@ -14,11 +14,12 @@ import pytest
 
 from uictest.controllers import ControllerError
 from uictest.rig.external import worker
-from uictest.rig.external.in_process import run_in_process
-from uictest.rig.external.worker import Worker
+from uictest.rig.external.in_process import BlockInputs, run_in_process
+from uictest.rig.external.worker import LARGEST_OUTPUT, PrintedOutput, Worker
 from uictest.rig.external.workers import Workers
 
 from ...processes import children_of, has_ended, waited_for
+from ...stop_bits import bits
 
 IN_PYTHON = {
     "create": "Bad(config) failed: ValueError: told to",
@@ -57,10 +58,6 @@ IN_C = {
 def children():
     """The child processes of this one that are not yet collected."""
     return {int(pid) for pid in Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()}
-
-
-def bits(stop):
-    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
 
 
 def line_of(fault):
@@ -147,13 +144,13 @@ def test_a_controller_that_hangs_after_its_stop_is_ended(
     workers.run(stop_of())
 
 
-def test_a_process_that_takes_no_request_is_ended(stop_of, block_of, monkeypatch):
+def test_a_process_that_takes_no_request_is_ended(stop_of, monkeypatch):
     """A block of stops is more than the memory between two processes takes up."""
     monkeypatch.setattr(worker, "ANSWER_LIMIT", 0.2)
     asked = Worker(frozenset({("python", "", "")}))
     os.kill(asked._process.pid, signal.SIGSTOP)
     with pytest.raises(ControllerError, match=r"its process took no request within 0\.2 s"):
-        asked.run_block(block_of([stop_of()] * 256))
+        asked.run_block(BlockInputs.of([stop_of()] * 256))
     assert not asked.usable
 
 
@@ -233,12 +230,12 @@ def test_a_library_that_changes_while_it_is_loaded_is_not_run(stop_of, library, 
         run_in_process(inputs)
 
 
-def test_a_fault_in_a_block_ends_its_own_stop_alone(workers, stop_of, library, block_of):
+def test_a_fault_in_a_block_ends_its_own_stop_alone(workers, stop_of, library):
     """Stops of C libraries run side by side in lanes."""
     library()
     faults = ("create", "none", "crash", "none", "forbidden", "hang", "exit", "none", "destroy")
     stops = [stop_of(fault, at=7, limit="0.5 s", library="libbad.so") for fault in faults]
-    run = workers.run_block(block_of(stops))
+    run = workers.run_block(BlockInputs.of(stops))
     expected = {
         "create": "controller: uictest_create failed: told to",
         "none": "",
@@ -277,3 +274,64 @@ def test_a_message_that_is_no_answer_ends_the_stop_and_its_process(workers, stop
     with pytest.raises(ControllerError, match="something else than an answer"):
         workers.run(stop_of(f"forge-{head}"))
     workers.run(stop_of())
+
+
+@pytest.fixture(scope="module")
+def keeping():
+    with pytest.MonkeyPatch.context() as patch, Workers(keep_output=True) as workers:
+        patch.delenv("PYTHONUNBUFFERED", raising=False)
+        yield workers
+
+
+def test_each_stop_has_what_its_controller_printed(keeping, stop_of, library, capfd):
+    library()
+    said = [
+        keeping.run(each).controller_output
+        for each in (
+            stop_of("say", at=3),
+            stop_of("none"),
+            stop_of("print", at=3, library="libbad.so"),
+            stop_of("none", library="libbad.so"),
+            stop_of("say", at=4),
+        )
+    ]
+    python = "from Python from Python \n"
+    assert said == [python, "", "from C\nand more", "", python]
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("program", "fault", "last_words"),
+    [({}, "say-crash", "last wordslast words\n"), ({"library": "libbad.so"}, "print-crash", "from C\n")],
+    ids=["Python", "C"],
+)
+def test_the_last_words_of_a_controller_that_crashes_are_kept(
+    keeping, stop_of, library, program, fault, last_words
+):
+    library()
+    with pytest.raises(ControllerError, match="crashed with SIGSEGV") as error:
+        keeping.run(stop_of(fault, at=3, **program))
+    assert error.value.output.startswith(last_words)
+
+
+def test_a_flood_is_cut_and_said_to_be(keeping, stop_of):
+    output = keeping.run(stop_of("flood", at=3)).controller_output
+    lost = 64 * 65536 - LARGEST_OUTPUT
+    assert output.endswith(f"\n... {lost} bytes more, {LARGEST_OUTPUT} are kept\n")
+    assert LARGEST_OUTPUT < len(output) < LARGEST_OUTPUT + 100
+    assert keeping.run(stop_of("none")).controller_output == ""
+
+
+def test_a_controller_that_closes_what_it_prints_to_runs_on(keeping, stop_of, monkeypatch):
+    """An end of the pipe that is closed is always ready: it is not waited for."""
+    reads, read = [], PrintedOutput.read
+    monkeypatch.setattr(PrintedOutput, "read", lambda own: reads.append(1) or read(own))
+    assert keeping.run(stop_of("close", at=3)).controller_output == ""
+    assert len(reads) < 100
+    assert keeping.run(stop_of("none")).controller_output == ""
+
+
+def test_without_a_place_for_it_output_goes_to_standard_error(workers, stop_of, capfd):
+    with Workers() as own:
+        assert own.run(stop_of("say", at=3)).controller_output == ""
+    assert capfd.readouterr() == ("", "from Python from Python \n")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.rig.model.clamping import step_clamping
+from uictest.rig.model.friction_brake import step_clamping
 
 EXACT = {
     f"{sensor}_{error}": 0.0

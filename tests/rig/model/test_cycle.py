@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uictest.core.physics.valves import FILL, HOLD, VENT
+from uictest.core.physics.air import FILL, HOLD, VENT
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.records import needs_of
 

@@ -5,7 +5,7 @@ import pytest
 
 from uictest.core.physics import interpolated
 from uictest.plans.scenario import load_part
-from uictest.rig.model.disc_brake import set_pad_friction, warm_disc
+from uictest.rig.model.friction_brake import set_pad_friction, warm_disc
 
 DRY = ("initial_speed=120 km/h",)
 WARM = (*DRY, "brake.disc_temperature=modelled")

@@ -6,10 +6,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from uictest.rig.backends.stops import compiled_rig
-from uictest.rig.model.clamping import step_clamping
-from uictest.rig.model.module_air import follow_tanks, read_line_pressure
+from uictest.rig.model.friction_brake import follow_tanks, read_line_pressure, step_clamping
 from uictest.rig.model.pneumatics import step_air
+from uictest.rig.stops import compiled_rig
 from uictest.rig.train_stop import run_to_end
 
 EXACT = {f"pressure_{error}": 0.0 for error in ("gain_error", "offset", "noise")} | {

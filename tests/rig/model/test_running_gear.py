@@ -8,12 +8,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from uictest.core.physics.polach import force_and_slope
+from uictest.core.physics.rail import force_and_slope
 from uictest.core.translation import translate
 from uictest.rig.model.balance import stored_energy
-from uictest.rig.model.clamping import step_clamping
+from uictest.rig.model.friction_brake import step_clamping
 from uictest.rig.model.pneumatics import step_air
-from uictest.rig.model.slip_search import HIGHEST_LOAD, bracket_slip
+from uictest.rig.model.running_gear import HIGHEST_LOAD, bracket_slip
 
 from ..plain_numbers import step
 
@@ -33,9 +33,7 @@ def still(*_):
 
 
 LINEAR_STEP = translate(
-    step,
-    lambda function: function,
-    {force_and_slope: linear_creep, step_air: still, step_clamping: still},
+    step, lambda function: function, {force_and_slope: linear_creep, step_air: still, step_clamping: still}
 )
 """The rig's own step on a rail with linear creep, while the test prescribes the clamping forces."""
 

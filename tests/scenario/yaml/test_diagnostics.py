@@ -2,12 +2,21 @@
 
 from pathlib import Path
 
-from uictest.plans.scenario.yaml.diagnostics import ScenarioErrors, diagnose, in_reading_order
-from uictest.plans.scenario.yaml.tree import Document, Place, nearest, quoted, suggestion, visible
+from uictest.plans.scenario.yaml.diagnostics import (
+    Document,
+    Location,
+    ScenarioErrors,
+    diagnose,
+    in_reading_order,
+    nearest,
+    quoted,
+    suggestion,
+    visible,
+)
 
 
 def place(text, line, column, display="a.yaml"):
-    return Place(Document(display, Path(), text), line, column)
+    return Location(Document(display, Path(), text), line, column)
 
 
 def test_a_message_shows_place_line_caret_and_hint():

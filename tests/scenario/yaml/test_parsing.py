@@ -8,9 +8,8 @@ import yaml
 from hypothesis import given, strategies as st
 
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.scenario.yaml import parsing
-from uictest.plans.scenario.yaml.parsing import parse, scalar_value
-from uictest.plans.scenario.yaml.tree import Document, Map, Scalar, as_written, merge, plain
+from uictest.plans.scenario.yaml.diagnostics import Document
+from uictest.plans.scenario.yaml.tree import Map, Scalar, as_written, merge, parse, plain, scalar_value
 
 LOADERS = [yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)]
 
@@ -21,15 +20,15 @@ def tree(text):
 
 @pytest.mark.parametrize("loader", LOADERS, ids=["python", "libyaml"])
 def test_every_key_and_value_has_its_place(loader, monkeypatch):
-    monkeypatch.setattr(parsing, "_LOADER", loader)
+    monkeypatch.setattr("uictest.plans.scenario.yaml.tree._LOADER", loader)
     root = tree("rail:\n  friction: 0.10\n  'gradient':  5 permille\ntags: [a, on]\n")
     assert isinstance(root, Map)
     rail = root.entries["rail"].node
     assert isinstance(rail, Map)
     friction, gradient = rail.entries["friction"], rail.entries["gradient"]
     assert (friction.key.line, friction.key.column) == (2, 3)
-    assert (friction.node.place.line, friction.node.place.column) == (2, 13)
-    assert (gradient.key.line, gradient.node.place.column) == (3, 16)
+    assert (friction.node.location.line, friction.node.location.column) == (2, 13)
+    assert (gradient.key.line, gradient.node.location.column) == (3, 16)
     assert isinstance(friction.node, Scalar)
     assert (friction.node.value, friction.node.text) == (0.1, "0.10")
     assert plain(root) == {"rail": {"friction": 0.1, "gradient": "5 permille"}, "tags": ("a", "on")}
@@ -37,7 +36,7 @@ def test_every_key_and_value_has_its_place(loader, monkeypatch):
 
 @pytest.mark.parametrize("loader", LOADERS, ids=["python", "libyaml"])
 def test_quoted_numbers_and_blocks_are_texts(loader, monkeypatch):
-    monkeypatch.setattr(parsing, "_LOADER", loader)
+    monkeypatch.setattr("uictest.plans.scenario.yaml.tree._LOADER", loader)
     assert plain(tree("a: '1'\nb: \"true\"\nc: |\n  1\nd: >-\n  2\n")) == {
         "a": "1",
         "b": "true",

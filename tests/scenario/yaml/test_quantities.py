@@ -11,6 +11,7 @@ from hypothesis import given, strategies as st
 from pydantic import BaseModel, ValidationError
 
 from uictest.core.units import KINDS
+from uictest.plans.scenario.yaml.fields import of_kind
 from uictest.plans.scenario.yaml.quantities import (
     DecimalQuantity,
     Quantity,
@@ -22,7 +23,6 @@ from uictest.plans.scenario.yaml.quantities import (
     rounded_decimal,
     spaced_by_step,
 )
-from uictest.plans.scenario.yaml.quantity_field import of_kind
 
 WITH_UNITS = [(kind.name, symbol) for kind in KINDS.values() for symbol in kind.units]
 

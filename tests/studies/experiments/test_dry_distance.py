@@ -1,15 +1,7 @@
 import pytest
 
 from studies.experiments import dry_distance
-from studies.experiments.dry_distance import (
-    COMMANDS,
-    RIGS,
-    SPEEDS,
-    WITHIN,
-    DryStop,
-    dry_stops,
-    worst_stop,
-)
+from studies.experiments.dry_distance import COMMANDS, RIGS, SPEEDS, WITHIN, DryStop, dry_stops, worst_stop
 from studies.study import STUDIES, run_study
 from uictest.plans.scenario import COMPENSATION_SETTINGS
 

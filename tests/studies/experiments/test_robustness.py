@@ -2,13 +2,7 @@ import math
 
 import pytest
 
-from studies.experiments.robustness import (
-    _in_order,
-    _ratio,
-    _values_of_sweep,
-    draw_sweep,
-    swept_friction,
-)
+from studies.experiments.robustness import _in_order, _ratio, _values_of_sweep, draw_sweep, swept_friction
 from studies.neighbourhood import Point
 
 

@@ -4,14 +4,7 @@ from dataclasses import fields, replace
 import pytest
 
 from studies.field import assumptions as module
-from studies.field.assumptions import (
-    CARRY_OVERS,
-    FAMILIES,
-    REAL_TRAIN,
-    SHAPES,
-    Assumptions,
-    FieldStop,
-)
+from studies.field.assumptions import CARRY_OVERS, FAMILIES, REAL_TRAIN, SHAPES, Assumptions, FieldStop
 from studies.field.field_rig import FieldRig
 from studies.field.search import (
     VARIATIONS,

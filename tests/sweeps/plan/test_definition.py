@@ -92,10 +92,7 @@ def test_the_files_read_are_inputs(load):
         ("sample: {size: 3, parameters: {rail.friction: {}}}\n", "give exactly one distribution"),
         ("sample: {size: 3, parameters: {seed: {uniform: [1, 5]}}}\n", "only a quantity can be drawn"),
         ("sample: {size: 3, parameters: {rig.wsp: {choice: [active, off]}}}\n", "unknown value 'off'"),
-        (
-            "sample: {method: saltelli, size: 3, parameters: {rail.friction: {uniform: [0.1, 0.2]}}}\n",
-            "take a power of two: 2 or 4",
-        ),
+        ("sample: {method: sobol, size: 3, parameters: {seed: {choice: [1]}}}\n", "a power of two: 2 or 4"),
     ],
 )
 def test_errors_say_where_and_what_is_accepted(load, text, expected):
@@ -110,45 +107,24 @@ SIX_COLUMNS = (
     " brake.command: {uniform: [50 %, 100 %]}, initial_speed: {uniform: [50 km/h, 60 km/h]}}"
 )
 """Parameters of which Saltelli's scheme makes six cases a point."""
-MANY = "first: 0.05, last: 0.2, count: 1000000"
+MANY = "ranges: {rail.friction: {first: 0.05, last: 0.2, count: 1000000}%s}\n"
+AS_MANY = ", rail.gradient: {first: 0 permille, last: 5 permille, count: 1000000}"
+FINE = "ranges: {rail.friction: {first: 0.1, last: 0.2, step: 1e-10}}\n"
+LARGEST = SAMPLE.replace("size: 4", "size: 16777216")
+SIX = f"sample: {{method: saltelli, size: 16777216, parameters: {SIX_COLUMNS}}}\n"
+SEEDS = "zip: {seed: %s}\n"
+OPTIONS = ("seed=range(1,101,1)", "brake.command=50 %,100 %")
 
 
 @pytest.mark.parametrize(
     ("text", "overrides", "expected"),
     [
-        (
-            (
-                f"ranges: {{rail.friction: {{{MANY}}}, rail.gradient: {{first: 0 permille, last: 5 permille,"
-                " count: 1000000}}\n"
-            ),
-            (),
-            "vary: 1000000000000 cases (1000000 of rail.friction x 1000000 of rail.gradient)",
-        ),
-        (
-            "ranges: {rail.friction: {first: 0.1, last: 0.2, step: 1e-10}}\n",
-            (),
-            "vary.ranges.rail.friction.step: 1000000001 values; at most 16777216",
-        ),
-        (
-            f"ranges: {{rail.friction: {{{MANY}}}}}\n",
-            ("seed=range(1,101,1)", "brake.command=50 %,100 %"),
-            "vary: 202000000 cases (101 of seed x 2 of brake.command x 1000000 of rail.friction)",
-        ),
-        (
-            SAMPLE.replace("size: 4", "size: 16777216") + "matrix: {seed: [0, 1, 2, 3, 4, 5]}\n",
-            (),
-            "vary: 100663296 cases (6 of seed x 16777216 of sample)",
-        ),
-        (
-            f"sample: {{method: saltelli, size: 16777216, parameters: {SIX_COLUMNS}}}\n",
-            (),
-            "vary: 100663296 cases (100663296 of sample)",
-        ),
-        (
-            f"ranges: {{rail.friction: {{{MANY}}}}}\nzip: {{seed: {list(range(101))}}}\n",
-            (),
-            "vary: 101000000 cases (1000000 of rail.friction x 101 of seed)",
-        ),
+        (MANY % AS_MANY, (), "1000000000000 cases (1000000 of rail.friction x 1000000 of rail.gradient)"),
+        (FINE, (), "1000000001 values; at most 16777216"),
+        (MANY % "", OPTIONS, "202000000 cases (101 of seed x 2 of brake.command x 1000000 of rail.friction)"),
+        (LARGEST + SEEDS % [*range(6)], (), "100663296 cases (6 of seed x 16777216 of sample)"),
+        (SIX, (), "100663296 cases (100663296 of sample)"),
+        (MANY % "" + SEEDS % [*range(101)], (), "101000000 cases (1000000 of rail.friction x 101 of seed)"),
     ],
 )
 def test_cases_are_counted_before_any_of_them_is_made(load, monkeypatch, text, overrides, expected):
@@ -156,32 +132,26 @@ def test_cases_are_counted_before_any_of_them_is_made(load, monkeypatch, text, o
     with pytest.raises(ScenarioErrors) as caught:
         load(text, *overrides)
     (error,) = caught.value.diagnostics
-    assert f"{error.key}: {error.message}".startswith(expected)
+    assert error.message.startswith(expected)
+    assert error.key == ("vary.ranges.rail.friction.step" if text == FINE else "vary")
     assert "are accepted" in error.message
     assert error.hint
 
 
 def test_as_many_cases_as_are_accepted_are_planned(load):
-    sample = SAMPLE.replace("size: 4", "size: 16777216")
-    assert load(sample + "matrix: {seed: [0, 1, 2, 3, 4]}\n").size == 5 * 16777216
+    assert load(LARGEST + "matrix: {seed: [0, 1, 2, 3, 4]}\n").size == 5 * 16777216
 
 
 @pytest.mark.parametrize(
     ("distribution", "expected"),
     [
         ("{choice: [0.1, 0.2, 0.1, 0.2]}", "'0.1' is there twice; 1 more of the 4 values is rejected"),
-        (
-            "{choice: [0.1, 5, 7]}",
-            "5 is out of range: it must be at most 1; 1 more of the 3 values is rejected",
-        ),
+        ("{choice: [0.1, 5, 7]}", "must be at most 1; 1 more of the 3 values is rejected"),
         ("{uniform: [0.2]}", "expected two bounds, [lowest, highest], found 1"),
         ("{log-uniform: [0.1, 0.2, 0.3]}", "expected two bounds, [lowest, highest], found 3"),
         ("{uniform: 0.2}", "expected two bounds, [lowest, highest], found no list"),
         ("{triangular: [0.1, 0.2]}", "expected three values, [lowest, likeliest, highest], found 2"),
-        (
-            "0.1",
-            "accepted: uniform, log-uniform, triangular, normal, choice; such as {uniform: [0.08, 0.16]}",
-        ),
+        ("0.1", "log-uniform, triangular, normal, choice; such as {uniform: [0.08, 0.16]}"),
     ],
 )
 def test_what_a_distribution_expects(load, distribution, expected):
@@ -221,18 +191,12 @@ def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load, text, hint):
 @pytest.mark.parametrize(
     ("normal", "expected"),
     [
-        (
-            "{mean: 0.1, deviation: 1e-7, lower: 0.2, upper: 0.3}",
-            "lower: 0.2 lies more than 100000 deviations",
-        ),
-        (
-            "{mean: 0.3, deviation: 1e-7, lower: 0.1, upper: 0.2}",
-            "upper: 0.2 lies more than 100000 deviations",
-        ),
+        ("{mean: 0.1, deviation: 1e-7, lower: 0.2, upper: 0.3}", "lower: 0.2"),
+        ("{mean: 0.3, deviation: 1e-7, lower: 0.1, upper: 0.2}", "upper: 0.2"),
     ],
 )
 def test_a_normal_without_spread_between_its_ends_is_rejected(load, normal, expected):
-    with pytest.raises(ScenarioErrors, match=rf"rail\.friction\.normal\.{expected}"):
+    with pytest.raises(ScenarioErrors, match=rf"\.normal\.{expected} lies more than 100000 deviations"):
         load(f"sample: {{size: 3, parameters: {{rail.friction: {{normal: {normal}}}}}}}\n")
 
 
@@ -253,19 +217,11 @@ def test_all_errors_are_reported_at_once_and_those_of_an_axis_counted(load):
     [
         ("matrix: {rail.friction: [0.1, 5, 6, 0.2, 7]}", 33, "5 is out of range"),
         ("ranges: {rail.friction: {first: 1, last: 1.4, step: 0.1}}", 27, "1.1 is out of range"),
-        (
-            "ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}",
-            27,
-            "'0.001' is inconsistent with",
-        ),
+        ("ranges: {rail.friction: {first: 0.001, last: 0.1, count: 9}}", 27, "'0.001' is inconsistent with"),
         ("ranges: {rail.frictoin: {first: 1, last: 2, count: 9}}", 12, "unknown key 'frictoin'"),
         ("zip: {seed: [1, 2, 3], rail.friction: [0.1, 0, 0]}", 47, "0 is out of range"),
         ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 19, "'2' with '0.002' is inconsistent with"),
-        (
-            "sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}",
-            60,
-            "'0.001' is inconsistent with",
-        ),
+        ("sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}", 60, "'0.001' is inconsist"),
         ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 62, "no vehicle 'a'"),
     ],
 )

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 from scipy.special import erfcx
 
-from uictest.plans.scenario.parts.vary import FARTHEST_END, Distribution
+from uictest.plans.scenario.expansion import FARTHEST_END, Distribution
 from uictest.plans.sweeps.sampling import quantile
 
 SHARES = np.linspace(0.0, 0.999, 50)

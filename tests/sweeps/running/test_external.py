@@ -14,8 +14,7 @@ from uictest.running.campaign import RecordingRequest, Stop, map_on_threads, run
 from uictest.running.chunked import chunk_runner, cluster, named_controller
 from uictest.running.chunked.store import program_digest
 
-from ..conftest import rows
-from .test_case_blocks import written_out
+from ..conftest import rows, written_out
 
 FRICTIONS = "  rail.friction: [0.06, 0.08, 0.10]\n"
 

@@ -9,14 +9,13 @@ import pytest
 from uictest import rig
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
-from uictest.plans.sweeps.plan import in_survey_steps
+from uictest.plans.sweeps import in_survey_step
 from uictest.report import survey_notes
-from uictest.running.chunked import BlockRunner, CaseSelection, chunk_runner, sweep_manifest
-from uictest.running.chunked.case_blocks import BlockAssembler
+from uictest.running.chunked import CaseSelection, chunk_runner, sweep_manifest
 from uictest.running.chunked.store import program_digest
 from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
 
-from ..conftest import MATRIX, SCENARIO, formula, rows
+from ..conftest import MATRIX, SCENARIO, made_up, rows
 
 SURVEY = "simulation.time_step=survey"
 IN_FILE = "simulation.time_step: [survey]\n"
@@ -26,13 +25,7 @@ NO_BIAS = dict.fromkeys(biases_by_measure(), 0.0)
 @pytest.fixture
 def survey():
     """A runner of a survey whose stops are the formula, with the biases that are given."""
-
-    def runner(plan, **biases):
-        regular = BlockRunner(BlockAssembler(plan), formula, plan, rig.run_block)
-        assembler = BlockAssembler(in_survey_steps(plan))
-        return replace(regular, assembler=assembler, biases={**NO_BIAS, **biases}, regular=regular)
-
-    return runner
+    return lambda plan, **biases: made_up(plan, survey_biases={**NO_BIAS, **biases})
 
 
 @pytest.mark.parametrize(("text", "overrides"), [(MATRIX, [SURVEY]), (f"{MATRIX}  {IN_FILE}", [])])
@@ -41,7 +34,7 @@ def test_the_survey_step_is_asked_for_alone_and_varies_nothing(load, text, overr
     assert plan.survey
     assert plan.keys == ("rail.friction", "brake.command")
     assert plan.base.scenario.simulation.time_step == 0.0005
-    assert in_survey_steps(plan).base.scenario.simulation.time_step == 0.001
+    assert in_survey_step(plan.base).scenario.simulation.time_step == 0.001
 
 
 def test_only_the_last_step_of_the_command_line_counts(load):
@@ -104,7 +97,7 @@ def test_nothing_is_repeated_without_a_bias_and_everything_for_an_unknown_one(lo
     assert {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))} == {1.0}
     plan = load(MATRIX, SURVEY, "criteria=uictest-stop")
     known = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
-    runner = replace(survey(plan), biases=known)
+    runner = made_up(plan, survey_biases=known)
     assert {row["time_step_ms"] for row in rows(runner.run(np.arange(plan.size)))} == {0.5}
 
 
@@ -137,10 +130,9 @@ def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer
     }
     energies = sorted(max(row[f"contact_energy_kj_{k}"] for k in range(1, 5)) for row in beside["1 ms"])
     share = 1500.0 / (0.5 * (energies[1] + energies[2])) - 1.0  # half of the stops lie within it of 1500 kJ
-    runner = replace(
-        chunk_runner(load(text, SURVEY), rig.run_block), biases=NO_BIAS | {"contact_energy": share}
-    )
-    found = rows(runner.run(np.arange(4)))
+    runner = chunk_runner(load(text, SURVEY), rig.run_block)
+    stops = replace(runner.stops, survey_biases=NO_BIAS | {"contact_energy": share})
+    found = rows(replace(runner, stops=stops).run(np.arange(4)))
     assert {row["time_step_ms"] for row in found} == {0.5, 1.0}
     for place, row in enumerate(found):
         step = "0.5 ms" if row.pop("time_step_ms") == 0.5 else "1 ms"

@@ -118,7 +118,7 @@ def test_a_sweep_says_of_every_car_of_the_nominal_train_how_firm_it_is(load, tmp
     monkeypatch.setattr(sweeps, "ranged_numbers", lambda stated: ranged(stated)[:2])
     train = TRAIN.replace("uictest-rig", "uictest-stop").replace("expect: skipped\n", "")
     plan = load("matrix: {rail.friction: [0.04]}\n", stop=train)
-    request = SweepRequest(CaseSelection(plan), {}, tmp_path / "study", jobs=2, firm=True)
+    request = SweepRequest(CaseSelection(plan), {"file": plan.file}, tmp_path / "study", jobs=2, firm=True)
     finished = run_sweep(request, Observer())
     assert [each.id for each in finished.result.nominal] == [f"study[car={car}]" for car in (1, 2, 3)]
     assert {each.firmness.draws for each in finished.result.nominal} == {4}
@@ -128,7 +128,7 @@ def test_a_sweep_says_of_every_car_of_the_nominal_train_how_firm_it_is(load, tmp
     read_back = finished.content.result.nominal
     assert [known(each.measures) for each in read_back] == [known(each.measures) for each in cases]
     assert "How firm study[car=3] is" in (request.folder / "index.html").read_text("utf-8")
-    lines = (request.folder / "firmness.csv").read_text("utf-8").splitlines()
+    lines = (request.folder / "tables/firmness.csv").read_text("utf-8").splitlines()
     assert {line.split(",")[0] for line in lines[1:]} == {each.id for each in finished.result.nominal}
 
 

@@ -1,4 +1,4 @@
-"""The summary of the rows of a sweep, and the files that hold it."""
+"""What the rows of a sweep come to."""
 
 import csv
 import json
@@ -7,19 +7,27 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+from hypothesis import given, strategies as st
 
-from uictest.analysis.summaries.trends import MOST_VALUES
-from uictest.report import map_lines, write_sweep_result
+from uictest.analysis.summaries.trends import MOST_VALUES, MeasureSums, ReportedMeasure, reported_measures
+from uictest.report import SweepContent, map_lines, publication_of_sweep, publish, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
 from uictest.running.chunked import CaseSelection, ChunkStore
 
-from ..conftest import MATRIX, SCENARIO, formula, result_of, stored
+from ..conftest import MATRIX, SCENARIO, formula, made_up, result_of, stored
+
+
+def write(folder, result, file):
+    """Write the files of a finished sweep."""
+    write_sweep_result(folder, result)
+    publish(publication_of_sweep(SweepContent(folder, result, {"file": str(file)})), ["csv", "junit"], folder)
 
 
 @pytest.fixture
-def finished(load, made_up, tmp_path):
+def finished(load, tmp_path):
     """The findings of a finished sweep and the folder they are written to."""
 
     def finish(text=MATRIX, scenario="stop.yaml"):
@@ -27,7 +35,7 @@ def finished(load, made_up, tmp_path):
         store = stored(selection, made_up(selection.plan), tmp_path / "out")
         keys = selection.plan.keys
         result = result_of(selection, store, (keys[0], keys[1]))
-        write_sweep_result(store.folder, result, selection.plan.file)
+        write(store.folder, result, selection.plan.file)
         return result, store.folder
 
     return finish
@@ -43,16 +51,16 @@ def unstopped(parameters, own, rail):
     return measures, wheelsets
 
 
-def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(load, made_up, tmp_path):
+def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(load, tmp_path):
     selection = CaseSelection(load(MATRIX.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
-    runner = replace(made_up(selection.plan), simulate=unstopped)
+    runner = made_up(selection.plan, unstopped)
     store = stored(selection, runner, tmp_path / "out")
     result = result_of(selection, store)
-    write_sweep_result(store.folder, result, selection.plan.file)
+    write(store.folder, result, selection.plan.file)
     assert result.outcomes["inconclusive"] == 2
     assert result.met == 4
     assert result.notes == ("2 cases inconclusive, since data to judge are missing: never met",)
-    heading, *rates = table(store.folder / "rates.csv")
+    heading, *rates = table(store.folder / "tables/rates.csv")
     counts = {row[1]: row[heading.index("inconclusive")] for row in rates if row[0] == "rail.friction"}
     assert counts == {"0.08": "2", "0.10": "0", "0.12": "0"}
     assert result.missed[0].outcome == "inconclusive"
@@ -60,7 +68,7 @@ def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(lo
 
 
 def read_document(folder):
-    return json.loads((folder / "sweep.json").read_text())
+    return json.loads((folder / "results.json").read_text())
 
 
 def table(path):
@@ -71,7 +79,7 @@ def table(path):
 def test_the_files_of_a_summary_hold_its_counts_maps_and_parameters(finished):
     result, folder = finished()
     assert result.cases == 6
-    rates = table(folder / "rates.csv")
+    rates = table(folder / "tables/rates.csv")
     by_friction = {row[1]: (row[2], row[3]) for row in rates if row[0] == "rail.friction"}
     # Wheels lock where command - 9 friction exceeds 0.2.
     assert by_friction == {"0.08": ("2", "1"), "0.10": ("2", "2"), "0.12": ("2", "2")}
@@ -86,7 +94,7 @@ def test_the_files_of_a_summary_hold_its_counts_maps_and_parameters(finished):
     figures = [*document["measures"], *document["trends"]]
     assert {len(each["columns"]) for each in figures} == {1, 4}
     assert all(columns.issuperset(each["columns"]) for each in figures)
-    assert table(folder / "map-met.csv") == [
+    assert table(folder / "tables/map-met.csv") == [
         ["rail.friction \\ brake.command", "80 %", "100 %"],
         ["0.08", "1.0", "0.0"],
         ["0.10", "1.0", "1.0"],
@@ -127,16 +135,16 @@ def test_one_row_per_case_one_testcase_per_value_and_the_document_comes_back(fin
 
 def test_rows_of_a_zip_that_share_a_value_are_counted_together(finished):
     _, folder = finished("zip:\n  rail.friction: [0.08, 0.10, 0.12]\n  brake.command: [80 %, 100 %, 80 %]\n")
-    rates = [row[1:3] for row in table(folder / "rates.csv") if row[0] == "brake.command"]
+    rates = [row[1:3] for row in table(folder / "tables/rates.csv") if row[0] == "brake.command"]
     assert rates == [["80 %", "2"], ["100 %", "1"]]
-    assert [row[0] for row in table(folder / "map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
-    assert table(folder / "map-met.csv")[0][1:] == ["80 %", "100 %"]
+    assert [row[0] for row in table(folder / "tables/map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
+    assert table(folder / "tables/map-met.csv")[0][1:] == ["80 %", "100 %"]
 
 
 def test_trends_of_a_figure_along_each_parameter(finished):
     _, folder = finished()
     cases = pq.read_table(folder / "summary.parquet").to_pylist()
-    trends = {tuple(row[:3]): row[3:] for row in table(folder / "trends.csv")}
+    trends = {tuple(row[:3]): row[3:] for row in table(folder / "tables/trends.csv")}
     for key, value in {
         (key, case[f"parameters.{key}"]) for case in cases for key in ("rail.friction", "brake.command")
     }:
@@ -150,11 +158,11 @@ def test_trends_of_a_figure_along_each_parameter(finished):
 def test_a_parameter_of_too_many_values_has_no_trend(finished):
     many = ", ".join(str(round(0.05 + k * 1e-4, 4)) for k in range(MOST_VALUES + 1))
     _, folder = finished(MATRIX.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
-    assert {row[0] for row in table(folder / "trends.csv")[1:]} == {"brake.command"}
+    assert {row[0] for row in table(folder / "tables/trends.csv")[1:]} == {"brake.command"}
 
 
 @pytest.mark.parametrize(("count", "times"), [(MOST_VALUES, 2), (MOST_VALUES + 1, 1)])
-def test_chunks_are_read_again_for_trends_alone(load, made_up, tmp_path, monkeypatch, count, times):
+def test_chunks_are_read_again_for_trends_alone(load, tmp_path, monkeypatch, count, times):
     text = f"ranges:\n  brake.command: {{first: 60 %, last: 100 %, count: {count}}}\n"
     selection = CaseSelection(load(text))
     store = stored(selection, made_up(selection.plan), tmp_path / "out")
@@ -181,7 +189,7 @@ def test_a_large_map_is_shown_coarser_and_written_whole(finished):
         "  brake.command: {first: 70 %, last: 100 %, step: 30 %}\n"
     )
     assert len(list(map_lines(result.maps[0], None))) == 3 + 20
-    assert len(table(folder / "map-met.csv")) == 1 + 60
+    assert len(table(folder / "tables/map-met.csv")) == 1 + 60
 
 
 def test_drawn_parameters_are_counted_in_intervals(finished):
@@ -193,18 +201,6 @@ def test_drawn_parameters_are_counted_in_intervals(finished):
     assert [count.value.label for count in counts][:2] == ["0.05 .. 0.06", "0.06 .. 0.07"]
     assert sum(count.cases for count in counts) == 64
     assert [count.cases for count in result.rates["rig.topology"]] == [32, 32]
-
-
-def test_text_of_a_user_is_no_formula_in_the_summary(load, made_up, tmp_path):
-    import pyarrow as pa
-
-    from uictest.analysis.summaries.worst import without_formulas
-
-    assert without_formulas(pa.table({"a": ["=1+1", "+2", "x"], "b": [1, 2, 3]})).column("a").to_pylist() == [
-        "'=1+1",
-        "+2",
-        "x",
-    ]
 
 
 def test_the_requirements_of_the_scenario_are_those_of_every_testcase(finished, tmp_path):
@@ -236,5 +232,35 @@ def test_sensitivities_of_a_saltelli_sample(finished):
     # The formula's distance depends on friction alone.
     distance = [each for each in result.sensitivities if each.measure == "braking_distance_m"]
     assert [each.total.value for each in distance] == pytest.approx([1.0, 0.0], abs=0.05)
-    assert table(folder / "sensitivity.csv")[0][:3] == ["measure", "parameter", "first"]
+    assert table(folder / "tables/sensitivity.csv")[0][:3] == ["measure", "parameter", "first"]
     assert "rail.friction: the scenario's own 0.1 lies inside the range 0.08 .. 0.12" in result.notes
+
+
+MEASURE = ReportedMeasure("slide", "%", ("a", "b"), 100.0)
+values = st.one_of(st.none(), st.floats(-1e6, 1e6))
+rows = st.lists(st.tuples(values, values), min_size=1, max_size=60)
+
+
+def table_of(found):
+    a, b = ([row[place] for row in found] for place in range(2))
+    return pa.table({"a": pa.array(a, pa.float64()), "b": pa.array(b, pa.float64())})
+
+
+@given(rows, st.integers(0, 60))
+def test_every_case_with_the_figure_counts_once_in_any_parts(found, cut):
+    sums = MeasureSums(MEASURE)
+    for chunk in (found[:cut], found[cut:]):
+        sums.add(table_of(chunk))
+    known = [100.0 * max(x for x in row if x is not None) for row in found if row != (None, None)]
+    assert sums.cases == len(known)
+    if known:
+        result = sums.range()
+        assert (result.minimum, result.maximum) == (min(known), max(known))
+        assert result.mean == pytest.approx(np.mean(known), rel=1e-9, abs=1e-6)
+
+
+def test_a_measure_that_is_asked_for_and_usual_stands_once():
+    asked = reported_measures(["braking_distance_m", "locked_time_s_3"], "10 km/h")
+    names = [measure.name for measure in asked]
+    assert names.count("braking distance") == 1
+    assert names[-1] == "locked_time_s_3"

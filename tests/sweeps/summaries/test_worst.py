@@ -46,10 +46,9 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load):
     """Bit for bit: the scalar rig and the lanes, with the noise of the same case."""
     plan = load("matrix:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
     runner = chunk_runner(plan, rig.run_block)
-    indices = [3, 0]
-    block = runner.assembler.block(np.array(indices))
-    by_lanes, _ = runner.results(block)
-    alone = run_cases(full_cases(plan, indices), RunSettings(recording=RecordingRequest("all")))
+    indices = np.array([3, 0])
+    by_lanes, _ = runner.results(indices, plan.settings(indices))
+    alone = run_cases(full_cases(plan, indices.tolist()), RunSettings(recording=RecordingRequest("all")))
     for own, result in zip(by_lanes, alone.results, strict=True):
         assert (own.id, own.outcome) == (result.id, result.outcome)
         assert own.measures is not None and result.measures is not None

@@ -14,17 +14,15 @@ from .page import (
     differences_table as differences_table,
     variants_html as variants_html,
 )
-from .paired.difference import (
+from .paired_document import variants_document as variants_document
+from .paired_stops import (
+    Draw as Draw,
     PairedDifference as PairedDifference,
     PairedGroup as PairedGroup,
+    compare_variants as compare_variants,
     paired_group as paired_group,
-)
-from .paired.drawn_stops import Draw as Draw
-from .paired.pairing import (
     variants_json as variants_json,
 )
-from .paired.variants import compare_variants as compare_variants
-from .paired.wording import variants_document as variants_document
 from .parameters import ParameterChange as ParameterChange, ParameterOfRun as ParameterOfRun
 from .recordings import (
     compare_recordings as compare_recordings,

@@ -13,8 +13,12 @@ from typing import Any
 
 from uictest import report
 from uictest.analysis.comparison.parameters import parameter_changes, parameter_lines
-from uictest.analysis.comparison.runs import case_differences, run_notes, stops_of_series
-from uictest.analysis.comparison.series import compare_accepted_series
+from uictest.analysis.comparison.runs import (
+    case_differences,
+    compare_accepted_series,
+    run_notes,
+    stops_of_series,
+)
 from uictest.analysis.comparison.tolerance import Scope, Tolerances
 from uictest.judging import evaluation
 from uictest.report import BaselineComparison, Difference, without_machine
@@ -44,6 +48,10 @@ class Baseline:
             for own_id, each in side.items()
         }
         beyond |= {case_id: [_missing(self.results[case_id])] for case_id in missing}
+        # As if the accepted run had read nothing that this one did not select.
+        manifest, read = self.run.manifest, run.manifest.inputs
+        inputs = {name: digest for name, digest in manifest.inputs.items() if name in read}
+        limited = dataclasses.replace(self.run, manifest=dataclasses.replace(manifest, inputs=inputs))
         return BaselineComparison(
             without_machine(self.folder),
             self.sha256,
@@ -55,7 +63,7 @@ class Baseline:
             not_run=[case_id for case_id in other_ids if case_id in self.scope.selected],
             not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
             series_not_compared=of_series.not_compared,
-            notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
+            notes=[*self._parameters_changed(run), *run_notes(limited, run)],
             values={
                 result.id: _values(self.results[result.id], result)
                 for result in run.results
@@ -88,12 +96,6 @@ class Baseline:
         """Yield the parameters that have changed since the cases were accepted."""
         both = [(self.results[result.id], result) for result in run.results if result.id in self.results]
         yield from parameter_lines(parameter_changes([*both, *stops_of_series(self.run, run)]))
-
-    def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
-        """Return the accepted run as if it had read nothing that this one did not select."""
-        accepted = self.run.manifest
-        inputs = {name: digest for name, digest in accepted.inputs.items() if name in run.manifest.inputs}
-        return dataclasses.replace(self.run, manifest=dataclasses.replace(accepted, inputs=inputs))
 
 
 def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baseline:

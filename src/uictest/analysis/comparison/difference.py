@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from uictest.analysis.comparison.overlay import Overlay
-from uictest.analysis.comparison.paired.pairing import PairedComparison, paired_form
-from uictest.analysis.comparison.paired.wording import paired_sections
+from uictest.analysis.comparison.paired_document import paired_sections
+from uictest.analysis.comparison.paired_stops import PairedComparison, paired_form
 from uictest.analysis.comparison.parameters import ParameterChange, parameter_lines
 from uictest.core import envelope
 from uictest.core.document import Column, Document, Lines, Table
@@ -100,7 +100,6 @@ def comparison_document(comparison: Comparison, *, every: bool = False) -> Docum
 
 
 def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
-    """Yield what was changed between two runs, and in which cases."""
     changes = comparison.parameters
     shown = changes if every else changes[:_MOST_PARAMETERS]
     yield from parameter_lines(shown)
@@ -127,9 +126,8 @@ _COLUMNS: Final[tuple[Column[Difference], ...]] = (
 
 def _table(differences: Sequence[Difference]) -> Table:
     # A word that all rows share is left out first.
-    word = Column(heading="", text=_word, rank=5 if len(set(map(_word, differences))) == 1 else 0)
-    more = "--format json has them"
-    return Table((word, *_COLUMNS), differences, more=more, grouped_by=_CASE)
+    word = Column(heading="verdict", text=_word, rank=5 if len(set(map(_word, differences))) == 1 else 0)
+    return Table((word, *_COLUMNS), differences, all_in="--format json", grouped_by=_CASE)
 
 
 def comparison_json(comparison: Comparison) -> str:

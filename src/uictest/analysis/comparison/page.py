@@ -1,24 +1,24 @@
-"""The page of a comparison, its differences and panels."""
+"""The page of a comparison: differences, panels, and the braking distances of both sides."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from uictest.analysis.comparison.common_samples import ChannelDifference, WorstInstant, holds
 from uictest.analysis.comparison.difference import Comparison, verdict_line
-from uictest.analysis.comparison.dumbbells import dumbbells
-from uictest.analysis.comparison.overlay import BINS, Overlay, curve_name
-from uictest.analysis.comparison.paired.pairing import PairedComparison
-from uictest.analysis.comparison.paired.wording import (
-    effects,
-    group_text,
-    method,
-    paired_table,
-    same_text,
+from uictest.analysis.comparison.overlay import (
+    BINS,
+    ChannelDifference,
+    Overlay,
+    WorstInstant,
+    curve_name,
+    holds,
 )
+from uictest.analysis.comparison.paired_document import effects, group_text, method, paired_table, same_text
+from uictest.analysis.comparison.paired_stops import PairedComparison
 from uictest.analysis.comparison.parameters import ParameterChange
 from uictest.core.document import Column, Table
 from uictest.core.measures import without_wheelset
@@ -32,7 +32,6 @@ from uictest.report import (
     Value,
     channel_title,
     furthest_out,
-    is_verdict,
     listed,
     measure_heading,
     number,
@@ -44,7 +43,67 @@ from uictest.report import (
     turn,
     turn_tone,
 )
-from uictest.report.page import STEPS, Mark, OverlayView, case_anchor, forest, fragment, overlay_view, render
+from uictest.report.page import (
+    ROW_PIXELS,
+    STEPS,
+    Drawing,
+    Mark,
+    Plot,
+    Shape,
+    case_anchor,
+    dot,
+    forest,
+    fragment,
+    packed,
+    panel_form,
+    panels_over_time,
+    render,
+    row_at,
+    rows_plot,
+    script_json,
+    spanned,
+)
+
+MEASURE: Final = "braking_distance_m"
+MOST: Final = 40
+"""Rows that are drawn, those that differ most; the table has the others. Chosen: two screens."""
+_LETTERS: Final = 40
+"""Of an id of a case that there is room for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dumbbells:
+    """The rows, those that differ most first, and how many cases have none."""
+
+    plot: Plot
+    left_out: int
+
+
+def dumbbells(differences: Iterable[Difference]) -> Dumbbells | None:
+    """Return the drawing of the cases whose braking distance differs; None where there is none."""
+    known = [
+        (each.case, each.first, each.second)
+        for each in differences
+        if each.quantity == MEASURE and not isinstance(each.first, str) and not isinstance(each.second, str)
+    ]
+    known = [each for each in known if math.isfinite(each[1] + each[2])]
+    if not known:
+        return None
+    drawn = sorted(known, key=lambda each: -abs(each[2] - each[1]))[:MOST]
+    axis = spanned([end for each in drawn for end in each[1:]], *ROW_PIXELS)
+    shapes = []
+    for place, (case, first, second) in enumerate(drawn):
+        words = f"{case}: {first:.5g} m, then {second:.5g} m ({second - first:+.4g} m)"
+        x, y = (axis.at(first), axis.at(second)), row_at(place)
+        shapes += [
+            Shape("interval-line", f"M{x[0]:.1f} {y}H{x[1]:.1f}", words),
+            Shape("effect", dot(x[0], y, 4.0), words),
+            Shape("effect clear", dot(x[1], y, 4.0), words),
+        ]
+    names = [case if len(case) <= _LETTERS else f"…{case[1 - _LETTERS :]}" for case, _, _ in drawn]
+    about = "Braking distance of A and B in each case that differs; the table of differences has the numbers"
+    x_title = "braking distance, m; open: A, filled: B"
+    return Dumbbells(rows_plot(names, shapes, axis.tick_marks(7), about, x_title), len(known) - len(drawn))
 
 
 def quantity_title(difference: Difference) -> str:
@@ -84,19 +143,28 @@ def _scaled(value: Value, size: float) -> Value:
 _DIFFERENCE_HEIGHT: Final = 0.75
 """Of a panel of a difference, against one of both sides; chosen."""
 
-DrawnPanel = tuple[Panel, Sequence[PlotLine]]
+
+def overlay_drawings(overlay: Overlay) -> list[Drawing]:
+    """Return a drawing of each channel and its difference: a page of paper holds some, not all."""
+    return [panels_over_time(overlay.trace, _panels(channel)) for channel in overlay.channels]
 
 
-def view_of(overlay: Overlay) -> OverlayView:
-    """Return the overlay as a page draws it."""
-    return overlay_view(
-        overlay.title,
-        sampling_text(overlay),
-        overlay.trace,
-        [_panels(each) for each in overlay.channels],
-        [mark for each in overlay.channels for mark in _marks(each)],
-        over_distance=overlay.over_distance.curves,
-        marks_over_distance=list(_marks_over_distance(overlay)),
+def overlay_json(overlay: Overlay) -> str:
+    """Return what the script draws an overlay from, over time and over distance."""
+    trace = overlay.trace
+    marks = [mark for channel in overlay.channels for mark in _marks(channel)]
+    return script_json(
+        {
+            "id": printable(overlay.title),
+            "sampling": sampling_text(overlay),
+            "start": trace.start,
+            "end": trace.end,
+            "over_time": packed(trace.curves, trace.interval),
+            "over_distance": packed(overlay.over_distance.curves),
+            "marks": [mark._asdict() for mark in marks],
+            "marks_over_distance": [mark._asdict() for mark in _marks_over_distance(overlay)],
+            "panels": [panel_form(*panel) for channel in overlay.channels for panel in _panels(channel)],
+        }
     )
 
 
@@ -112,8 +180,7 @@ def sampling_text(overlay: Overlay) -> str:
     )
 
 
-def _panels(each: ChannelDifference) -> list[DrawnPanel]:
-    """Return the panel of both sides and that of their difference."""
+def _panels(each: ChannelDifference) -> list[tuple[Panel, Sequence[PlotLine]]]:
     name, unit = each.channel, _axis_unit(each)
     title = printable(channel_title(name))
     sides = (
@@ -164,7 +231,6 @@ def _axis_unit(each: ChannelDifference) -> str:
 
 
 def _key(channel: str) -> str:
-    """Return the key of the panel of a difference."""
     return printable(f"difference-of-{channel}")
 
 
@@ -183,37 +249,22 @@ _PAIRED: Final[dict[str, Any]] = {
 """What the tables of paired differences are made with."""
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnOverlay:
-    """An overlay with its drawings; `anchor` is that of its part of the page."""
-
-    overlay: Overlay
-    view: OverlayView
-
-    @property
-    def anchor(self) -> str:
-        """The anchor of its part of the page: it follows from the id of the case alone."""
-        return case_anchor(self.overlay.title)
-
-    @property
-    def fragment(self) -> str:
-        """What stands behind the `#` of a link to it."""
-        return fragment(self.anchor)
-
-
 def comparison_html(comparison: Comparison) -> str:
     """Return one page with the differences and both sides drawn over each other; it loads nothing."""
-    overlays = [DrawnOverlay(overlay, view_of(overlay)) for overlay in comparison.overlays]
-    stated = {remark for each in overlays for remark in each.overlay.remarks}
+    overlays = comparison.overlays
+    stated = {remark for overlay in overlays for remark in overlay.remarks}
     return render(
         "comparison.html.j2",
         comparison=comparison,
         notes=[note for note in comparison.notes if note not in stated],
         overlays=overlays,
-        fragments={each.overlay.title: each.fragment for each in overlays},
+        overlay_drawings=overlay_drawings,
+        overlay_json=overlay_json,
+        case_anchor=case_anchor,
+        fragments={overlay.title: fragment(case_anchor(overlay.title)) for overlay in overlays},
         verdict_line=verdict_line(comparison),
         drawn=dumbbells(comparison.differences),
-        turned=[each for each in comparison.differences if is_verdict(each)],
+        turned=[each for each in comparison.differences if each.status is not None],
         differences_table=differences_table,
         parameters_table=parameters_table,
         relative_cell=relative_cell,

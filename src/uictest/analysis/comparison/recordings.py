@@ -11,16 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest import report
-from uictest.analysis.comparison.common_samples import (
+from uictest.analysis.comparison.difference import Comparison
+from uictest.analysis.comparison.overlay import (
+    FIRST_DRAWN,
     ChannelDifference,
+    Overlay,
     allowed_of,
     channel_difference,
     common_channels,
+    default_channels,
     in_shown_units,
+    overlay_of,
     select_channels,
 )
-from uictest.analysis.comparison.difference import Comparison
-from uictest.analysis.comparison.overlay import FIRST_DRAWN, Overlay, default_channels, overlay_of
 from uictest.analysis.comparison.runs import compare_runs
 from uictest.analysis.comparison.tolerance import Tolerances, compare_numbers
 from uictest.core import recording
@@ -55,19 +58,16 @@ def compare_recordings(
         name: channel_difference(name, first, second, allowed_of(name, (first, second), tolerances))
         for name in common_channels(first.units, second.units)
     }
-    quantities = [_durations(first, second, tolerances), *_channels(first, second, common)]
+    ours, theirs = (float(record["time"][-1]) for record in (first, second))
+    quantities = [
+        compare_numbers("", "duration", ours, theirs, tolerances, unit="s"),
+        *_channels(first, second, common),
+    ]
     differences = [difference for difference in quantities if difference is not None]
     remarkable = [difference.quantity for difference in differences if not difference.within]
     drawn = select_channels(channels, common) if channels else default_channels(remarkable, list(common))
     overlay = overlay_of("Recordings", first, second, [common[name] for name in drawn])
     return Comparison(*names, len(quantities), differences, overlay.remarks, [overlay])
-
-
-def _durations(
-    first: recording.Recording, second: recording.Recording, tolerances: Tolerances
-) -> Difference | None:
-    ours, theirs = (float(record["time"][-1]) for record in (first, second))
-    return compare_numbers("", "duration", ours, theirs, tolerances, unit="s")
 
 
 def _channels(

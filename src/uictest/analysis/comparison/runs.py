@@ -1,19 +1,122 @@
-"""Two runs: case by case outcome, verdicts and measures, then series, then stops under the same noise."""
+"""Two runs compared: outcome, verdicts and measures of each case, then of each series."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from uictest import report
 from uictest.analysis.comparison.difference import Comparison
-from uictest.analysis.comparison.paired.pairing import compare_paired_runs
+from uictest.analysis.comparison.paired_stops import compare_paired_runs
 from uictest.analysis.comparison.parameters import parameter_changes
-from uictest.analysis.comparison.series import series_differences
-from uictest.analysis.comparison.tolerance import Tolerances, compare_numbers
+from uictest.analysis.comparison.tolerance import Scope, Tolerances, compare_numbers
 from uictest.core.measures import column_unit
+from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
-from uictest.report import Difference, wheelset_quantity
+from uictest.judging.series import SeriesResult
+from uictest.report import Difference, StatusChange, status_difference, wheelset_quantity
+
+
+def series_differences(
+    first: Sequence[SeriesResult], second: Sequence[SeriesResult], tolerances: Tolerances
+) -> Iterator[Difference | None]:
+    """Yield one item per quantity of the series compared: None where both sides are the same.
+
+    Series are paired by id; one on one side only is a difference.
+    """
+    ours, theirs = ({result.id: result for result in side} for side in (first, second))
+    for name in dict.fromkeys([*ours, *theirs]):
+        if name in ours and name in theirs:
+            yield from differences_of_series(ours[name], theirs[name], tolerances)
+        else:
+            before, after = (side[name].outcome if name in side else "missing" for side in (ours, theirs))
+            remark = "the series is on one side only"
+            yield Difference(name, "series", before, after, within=False, remark=remark)
+
+
+def differences_of_series(
+    first: SeriesResult, second: SeriesResult, tolerances: Tolerances
+) -> Iterator[Difference | None]:
+    """Yield one item per quantity of a series compared: None where both sides are the same."""
+    yield status_difference(first.id, StatusChange(first.outcome, second.outcome))
+    verdicts, others = (
+        {each.verdict.id: each.verdict.status for each in side.criteria} for side in (first, second)
+    )
+    for name in dict.fromkeys([*verdicts, *others]):
+        yield status_difference(first.id, StatusChange(verdicts.get(name), others.get(name), name))
+    counts, other_counts = _counts(first), _counts(second)
+    for quantity in dict.fromkeys([*counts, *other_counts]):
+        sides = counts.get(quantity, "none"), other_counts.get(quantity, "none")
+        yield None if sides[0] == sides[1] else Difference(first.id, quantity, *sides, within=False)
+    numbers, other_numbers = _numbers(first), _numbers(second)
+    for place, name in dict.fromkeys([*numbers, *other_numbers]):
+        before, after = (side.get((place, name), math.nan) for side in (numbers, other_numbers))
+        quantity = f"{name} from {place}" if place else name
+        yield compare_numbers(first.id, quantity, before, after, tolerances, SERIES_MEASURES[name].unit)
+
+
+def _counts(result: SeriesResult) -> dict[str, str]:
+    return {
+        f"{role} stops from {speed.place}": f"{each.counted} of {each.run}"
+        for speed in result.speeds
+        for role, each in (("dry", speed.dry), ("wet", speed.wet))
+    }
+
+
+def _numbers(result: SeriesResult) -> dict[tuple[str, str], float]:
+    """Return the measures of a series, and those of each rail (with its speed) where it has several."""
+    tables = {"": result.measures, **{each.place: each.measures for each in result.speeds if each.rail}}
+    return {
+        (place, name): math.nan if value.estimate is None else value.estimate.value
+        for place, measures in tables.items()
+        for name, value in measures.items()
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class AcceptedSeries:
+    """Series against a baseline.
+
+    `quantities` has an item per quantity compared of each series, by its id: None where both sides are the
+    same. `files` has the file of each of these series. `not_compared` are ids of accepted series that were
+    not run or not selected.
+    """
+
+    quantities: Mapping[str, Sequence[Difference | None]]
+    files: Mapping[str, str]
+    not_compared: Sequence[str]
+
+
+def compare_accepted_series(
+    accepted: Sequence[SeriesResult], run: Sequence[SeriesResult], scope: Scope, tolerances: Tolerances
+) -> AcceptedSeries:
+    """Compare the series of a run; one that its file no longer has, or that is new, is a difference."""
+    before = {result.id: result for result in accepted}
+    quantities: dict[str, Sequence[Difference | None]] = {}
+    for result in run:
+        known = before.pop(result.id, None)
+        quantities[result.id] = (
+            [_new(result)] if known is None else list(differences_of_series(known, result, tolerances))
+        )
+    missing = [result for result in before.values() if scope.misses(result.id, result.file)]
+    quantities |= {result.id: [_missing(result)] for result in missing}
+    return AcceptedSeries(
+        quantities,
+        {result.id: result.file for result in (*run, *missing)},
+        [own_id for own_id in before if own_id not in quantities],
+    )
+
+
+def _new(result: SeriesResult) -> Difference:
+    remark = "the baseline has no such series; --accept adds it"
+    return Difference(result.id, "series", "missing", result.outcome, within=False, remark=remark)
+
+
+def _missing(result: SeriesResult) -> Difference:
+    remark = f"{result.file} no longer has this series; --accept drops it"
+    return Difference(result.id, "series", result.outcome, "missing", within=False, remark=remark)
+
 
 Pair = tuple[evaluation.CaseResult, evaluation.CaseResult]
 """A case on both sides."""
@@ -68,21 +171,18 @@ def case_differences(
 ) -> Iterator[Difference | None]:
     """Yield one item per quantity of a case compared: None where both results are the same."""
     case_id = first.id
-    yield _texts(case_id, "outcome", first.outcome, second.outcome)
+    yield status_difference(case_id, StatusChange(first.outcome, second.outcome))
     if first.repeats or second.repeats:
-        yield _texts(case_id, "stops", *map(_stops, (first, second)))
+        stops = _stops(first), _stops(second)
+        yield None if stops[0] == stops[1] else Difference(case_id, "stops", *stops, within=False)
         yield compare_numbers(case_id, "share_passed", _share(first), _share(second), tolerances)
-    verdicts, others = _verdicts(first), _verdicts(second)
+    verdicts, others = ({each.id: each.status for each in side.criteria} for side in (first, second))
     for name in dict.fromkeys([*verdicts, *others]):
-        yield _texts(case_id, f"criterion {name}", verdicts.get(name, "none"), others.get(name, "none"))
+        yield status_difference(case_id, StatusChange(verdicts.get(name), others.get(name), name))
     ours, theirs = _measures(first), _measures(second)
     for name in dict.fromkeys([*ours, *theirs]):
         sides = ours.get(name, math.nan), theirs.get(name, math.nan)
         yield compare_numbers(case_id, name, *sides, tolerances, column_unit(name))
-
-
-def _texts(case_id: str, quantity: str, first: str, second: str) -> Difference | None:
-    return None if first == second else Difference(case_id, quantity, first, second, within=False)
 
 
 def _stops(result: evaluation.CaseResult) -> str:
@@ -94,10 +194,6 @@ def _stops(result: evaluation.CaseResult) -> str:
 def _share(result: evaluation.CaseResult) -> float:
     repeats = result.repeats
     return float(result.outcome == "pass") if repeats is None else repeats.share
-
-
-def _verdicts(result: evaluation.CaseResult) -> dict[str, str]:
-    return {verdict.id: verdict.status.replace("_", " ") for verdict in result.criteria}
 
 
 def _measures(result: evaluation.CaseResult) -> dict[str, float]:
@@ -118,7 +214,6 @@ def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[s
 def _changes(
     first: Mapping[str, str | int | None], second: Mapping[str, str | int | None], prefix: str = ""
 ) -> Iterator[str]:
-    """Yield a line for each name whose values differ."""
     for name in dict.fromkeys([*first, *second]):
         if first.get(name) != second.get(name):
             yield f"{prefix}{name}: {_shown(first.get(name))} -> {_shown(second.get(name))}"

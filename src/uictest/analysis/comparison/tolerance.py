@@ -60,13 +60,12 @@ class Tolerances(NamedTuple):
             name, part, number = _read(text)
             # To the end: the last pattern that matches counts.
             parts_by_name[name] = {**parts_by_name.pop(name, {}), part: number}
-        tolerances = {name: _tolerance(**parts) for name, parts in parts_by_name.items()}
+        tolerances = {
+            name: Tolerance(parts.get("absolute", DEFAULT.absolute), parts.get("relative", 0.0))
+            for name, parts in parts_by_name.items()
+        }
         general = tolerances.pop(None, DEFAULT)
         return cls(general, tuple((name, each) for name, each in tolerances.items() if name is not None))
-
-
-def _tolerance(absolute: float = DEFAULT.absolute, relative: float = 0.0) -> Tolerance:
-    return Tolerance(absolute, relative)
 
 
 def _read(text: str) -> tuple[str | None, str, float]:

@@ -12,8 +12,18 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.analysis.firmness.scan import MovedStops, Scan, Setting, scan_side_by_side
-from uictest.analysis.firmness.stops import OUTCOME, Drawn, Place, Stops, share, usual
+from uictest.analysis.firmness.stops import (
+    OUTCOME,
+    Drawn,
+    MovedStops,
+    Place,
+    Scan,
+    Setting,
+    Stops,
+    scan_side_by_side,
+    share,
+    usual,
+)
 from uictest.judging.evaluation import (
     CalibratedDraws,
     Firmness,
@@ -115,7 +125,13 @@ class FirmnessStudy:
             self.validity,
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
-        turning = {each: self._turning(each, stops) for each in (OUTCOME, *criteria)}
+        # A verdict that turns over the seeds, too, turns at no end.
+        turning = {
+            each: [place for place in stops.ends if stops.turned_at(place, each)]
+            if not self._noisy(each, stops)
+            else []
+            for each in (OUTCOME, *criteria)
+        }
         nominal_places = [each.nominal_place for each in self.numbers]
         scans = scan_side_by_side(turning, nominal_places, stops, moved, effort.seeds)
         turns = {
@@ -158,12 +174,6 @@ class FirmnessStudy:
         self.expect(len(stops))
         return self._run_moved(stops)
 
-    def _turning(self, criterion: str, stops: Stops) -> list[Place]:
-        """Return the ends at which a verdict turns; none for one that turns over the seeds, too."""
-        if self._noisy(criterion, stops):
-            return []
-        return [place for place in stops.ends if stops.turned_at(place, criterion)]
-
     def _noisy(self, criterion: str, stops: Stops) -> bool:
         nominal = stops.usual(criterion)
         return any(each.outcome != "error" and each.status(criterion) != nominal for each in stops.nominal)
@@ -178,6 +188,11 @@ class FirmnessStudy:
         # An end that cannot be run shows nothing, whatever the draws say.
         shown = counted and not turned and not stops.not_run
         at_least = _DOUBT ** (1.0 / counted) if shown else None
+        calibrated = None
+        if stops.calibrated is not None:
+            pairs = zip(joint, stops.calibrated, strict=True)
+            holding = [stands for stands, holds in pairs if holds and stands is not None]
+            calibrated = CalibratedDraws(len(holding), share(holding))
         return {
             "criterion": criterion,
             "nominal": stops.usual(criterion),
@@ -188,7 +203,7 @@ class FirmnessStudy:
             "share_at_least": at_least,
             "lowest_block": min(known, default=None),
             "highest_block": max(known, default=None),
-            "calibrated": None if stops.calibrated is None else _calibrated(joint, stops.calibrated),
+            "calibrated": calibrated,
             "margin": _median(each.margins.get(criterion) for each in stops.nominal),
             "turned_by": turns,
         }
@@ -228,11 +243,6 @@ def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
     if turns:
         return "turns"
     return "firm" if at_least is not None and at_least >= FIRM_SHARE else "not_shown"
-
-
-def _calibrated(stands: Sequence[bool | None], holds: Sequence[bool]) -> CalibratedDraws:
-    counted = [each for each, known in zip(stands, holds, strict=True) if known and each is not None]
-    return CalibratedDraws(len(counted), share(counted))
 
 
 def _median(values: Iterable[float | None]) -> float | None:

@@ -1,18 +1,89 @@
-"""Stops of a log in groups of one nominal speed, and the dry ones beside each other: the reference."""
+"""The stops of a log in groups: by their initial speed, and the friction that they found."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import stdev
-from typing import Final
+from typing import Final, Literal, NamedTuple
 
 from uictest import report
 from uictest.core.document import Cell
 from uictest.core.series_measures import mean_of
 from uictest.judging.evaluation import CaseResult
-from uictest.plans.scenario import Case
+from uictest.plans.scenario import Case, Scenario
+from uictest.recorded import fitting
+from uictest.recorded.field_data import RecordedStop
+
+
+class StopFriction(NamedTuple):
+    """The friction of the rail in one stop.
+
+    Args:
+        standing: `not seen` where no fit is possible, `not one` where no single coefficient describes the
+            stop.
+        value: initial friction coefficient of a rail that is the same everywhere, or its lower bound.
+        half_width: of its 95 % confidence interval.
+        remark: why there is no fit.
+    """
+
+    standing: Literal["found", "at least", "not one", "not seen"]
+    value: float = math.nan
+    half_width: float = math.nan
+    remark: str = ""
+
+
+def friction_of(stop: RecordedStop, judged_under: Scenario) -> StopFriction:
+    """Return the friction of the rail under a stop of the vehicle, and with the brake, of a scenario."""
+    try:
+        fit = fitting.fit_stop(stop, judged_under)
+    except fitting.FitError as error:
+        return StopFriction("not seen", remark=str(error))
+    (estimate,) = fit.friction
+    if estimate.standing == "found" and not fit.describes_rail:
+        return StopFriction("not one", remark=fit.remark)
+    remark = fit.remark if estimate.standing == "found" else "no wheelset slid long enough"
+    standing = "not seen" if estimate.standing == "not reached" else estimate.standing
+    return StopFriction(standing, estimate.value, estimate.half_width, remark)
+
+
+def friction_table(
+    stops: Sequence[LoggedStop], frictions: Mapping[str, StopFriction]
+) -> report.CampaignTable:
+    """Return the friction stop by stop, with places where they are known."""
+    columns = (
+        report.CampaignColumn(report.STOPS, "stop"),
+        report.CampaignColumn("speed_kmh", "from, km/h", 1),
+        report.CampaignColumn("place_m", "at, m", 0),
+        report.CampaignColumn("standing", "friction"),
+        report.CampaignColumn("friction", "coefficient", 4),
+        report.CampaignColumn("half_width", "+-", 4),
+        report.CampaignColumn("remark", "remark", wraps=True),
+    )
+    records: list[dict[str, Cell]] = [
+        {
+            report.STOPS: stop.result.id,
+            "speed_kmh": stop.speed,
+            "place_m": stop.place,
+            "standing": friction.standing,
+            "friction": friction.value,
+            "half_width": friction.half_width,
+            "remark": friction.remark,
+        }
+        for stop in stops
+        for friction in [frictions[stop.result.id]]
+    ]
+    return report.CampaignTable.of_records(
+        "friction",
+        "Friction of the rail, stop by stop",
+        f"As `uictest fit` finds it, one coefficient for the whole stop; {fitting.COVERED}."
+        " Not one: no single coefficient describes the stop.",
+        "detail",
+        columns,
+        records,
+    )
+
 
 _SPEED_STEP: Final = 10.0
 """km/h between nominal speeds; chosen."""
@@ -123,7 +194,7 @@ _DRY: Final = (
 
 def dry_table(stops: Sequence[LoggedStop]) -> report.CampaignTable:
     """Return mean, spread and outliers of the dry stops from each speed."""
-    return report.CampaignTable(
+    return report.CampaignTable.of_records(
         "dry_stops",
         "Dry stops by speed",
         "Braking distances, each brought to the nominal speed by the square of the speeds (at most"
@@ -132,19 +203,26 @@ def dry_table(stops: Sequence[LoggedStop]) -> report.CampaignTable:
         " mean too, is ours.",
         "first",
         _DRY,
-        tuple(_dry_row(speed, group) for speed, group in dry_groups(stops).items()),
+        [_dry_record(speed, group) for speed, group in dry_groups(stops).items()],
     )
 
 
-def _dry_row(speed: float, group: Sequence[LoggedStop]) -> tuple[Cell, ...]:
+def _dry_record(speed: float, group: Sequence[LoggedStop]) -> dict[str, Cell]:
     outliers = outliers_of(group)
     # Of those that make the reference; where none does, of all.
     accepted = [stop.distance for stop in group if stop.result.id not in outliers]
     distances = accepted or [stop.distance for stop in group]
     mean = mean_of(distances, _CONFIDENCE)
-    percent = 100.0 * stdev(distances) / mean.value if len(distances) > 1 else math.nan
-    kept = f"{len(accepted)} of {len(group)}" if len(group) > 1 else "one stop alone"
-    return speed, len(group), mean.value, mean.low, mean.high, percent, kept, ", ".join(outliers)
+    return {
+        "speed_kmh": speed,
+        "dry_stops": len(group),
+        "mean_m": mean.value,
+        "low_m": mean.low,
+        "high_m": mean.high,
+        "deviation_percent": 100.0 * stdev(distances) / mean.value if len(distances) > 1 else math.nan,
+        "accepted": f"{len(accepted)} of {len(group)}" if len(group) > 1 else "one stop alone",
+        report.STOPS: ", ".join(outliers),
+    }
 
 
 def outliers_of(group: Sequence[LoggedStop]) -> list[str]:

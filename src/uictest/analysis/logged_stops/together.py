@@ -1,28 +1,123 @@
-"""Collects what the stops of a log show while they are judged, and says what they show together."""
+"""The stops of a log judged together: a series of wet stops, and the worst of them."""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from uictest import report
-from uictest.analysis.logged_stops.friction import StopFriction, friction_of, friction_table
 from uictest.analysis.logged_stops.stop_groups import (
     LoggedStop,
+    StopFriction,
     dry_groups,
     dry_table,
+    friction_of,
+    friction_table,
     outliers_of,
     references,
 )
-from uictest.analysis.logged_stops.wet_stops import series_table, wet_series, wet_table
-from uictest.analysis.logged_stops.worst_stops import event_row, ranked_rows, worst_table
-from uictest.core.document import Data
+from uictest.analysis.logged_stops.wet_stops import extensions, series_table, wet_series, wet_table
+from uictest.core.document import Cell
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.judging.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult, narrowest_margin
 from uictest.judging.series import SeriesResult
 from uictest.plans.scenario import Case
 from uictest.recorded import field_data, service_log
+from uictest.recorded.service_log import LoggedEvent, clock_text
+
+_COLUMNS: Final = (
+    report.CampaignColumn(report.STOPS, "stop"),
+    report.CampaignColumn("clock", "time"),
+    report.CampaignColumn("distance_m", "in the file at\nm", 0),
+    report.CampaignColumn("place_m", "on the line at\nm", 0),
+    report.CampaignColumn("speed_kmh", "from\nkm/h", 1),
+    report.CampaignColumn("outcome", "outcome"),
+    report.CampaignColumn("narrowest_margin_percent", "narrowest margin\n%", 1),
+    report.CampaignColumn("criterion", "of requirement"),
+    report.CampaignColumn("locked_s", "locked\ns", 1),
+    report.CampaignColumn("extension_percent", "extension\n%", 1),
+    report.CampaignColumn("file", ""),
+    report.CampaignColumn("sample", ""),
+    report.CampaignColumn("time_s", ""),
+    report.CampaignColumn("end_speed_kmh", ""),
+    report.CampaignColumn("remarks", ""),
+)
+
+
+def worst_table(
+    results: Sequence[CaseResult], stops: Sequence[LoggedStop], events: Mapping[str, LoggedEvent]
+) -> report.CampaignTable:
+    """Return every stop, the worst first, those that could not be judged last; `stops` are those judged."""
+    lengths, positions = extensions(stops), {stop.result.id: stop.place for stop in stops}
+    ranked: list[tuple[tuple[float, ...], dict[str, Cell]]] = []
+    for result in results:
+        margin, criterion = narrowest_margin(result, ("requirement",))
+        times = [wheelset.get("locked_time_s") or 0.0 for wheelset in result.wheelsets or ()]
+        locked = max((time for time in times if time > 0.0), default=0.0)
+        longer = lengths.get(result.id)
+        slowest = (result.measures or {}).get("mean_deceleration_mps2", math.nan)
+        rank = (
+            not result.measures,
+            result.requirement_status != "missed",
+            math.inf if margin is None else margin,
+            -locked,
+            -(longer or 0.0),
+            slowest if slowest > 0.0 else math.inf,
+        )
+        record = {
+            report.STOPS: result.id,
+            "outcome": result.outcome,
+            "narrowest_margin_percent": None if margin is None else round(100.0 * margin, 1),
+            "criterion": criterion,
+            "locked_s": locked if result.measures else None,
+            "extension_percent": longer,
+        }
+        record |= _event_record(events[result.id], positions.get(result.id, math.nan))
+        ranked.append((rank, record))
+    return report.CampaignTable.of_records(
+        "stops",
+        "Stops, the worst first",
+        "A missed requirement first; then by the narrowest margin of a requirement, the time for which a"
+        " wheelset is locked, the extension over the dry stops, and the least mean deceleration.",
+        "first",
+        _COLUMNS,
+        [record for _, record in sorted(ranked, key=lambda pair: pair[0])],
+    )
+
+
+_PASSED_OVER: Final = tuple(
+    report.CampaignColumn(key, "")
+    for key in (
+        *("file", "sample", "clock", "time_s", "distance_m", "speed_kmh", "end_speed_kmh"),
+        *("reason", "remarks"),
+    )
+)
+
+
+def passed_over_table(events: Sequence[LoggedEvent]) -> report.CampaignTable:
+    """Return the applications of the brake that are no stops; people are told of them in sentences."""
+    title, basis = "Passed over", "Applications of the brake that are no stops, with the reason."
+    records = map(_event_record, events)
+    return report.CampaignTable.of_records("passed_over", title, basis, "file", _PASSED_OVER, records)
+
+
+def _event_record(event: LoggedEvent, position: float = math.nan) -> dict[str, Cell]:
+    """Return where an application of the brake lies in its log and on the line, and why it is no stop."""
+    return {
+        "file": event.file.as_posix(),
+        "sample": event.row + 1,
+        "clock": clock_text(event.time),
+        "time_s": event.time,
+        "distance_m": round(event.distance, 1),
+        "place_m": round(position, 1),
+        "speed_kmh": round(event.speed / KILOMETRE_PER_HOUR, 2),
+        "end_speed_kmh": round(event.end_speed / KILOMETRE_PER_HOUR, 2),
+        "reason": event.reason,
+        "remarks": "; ".join(event.remarks),
+    }
+
 
 DRY: Final = "dry"
 """Name of the condition of a dry rail."""
@@ -52,31 +147,27 @@ class StopsTogether:
         """Observe one judged stop."""
         speed = float(stop.recording["speed"][0]) / KILOMETRE_PER_HOUR
         dry = case.scenario.rail.condition.name == DRY
-        self._stops.append(LoggedStop(result, speed, dry, case, stop.place))
+        self._stops.append(LoggedStop(result, speed, dry, case, stop.position))
         if self._vehicle_known:
             self._frictions[result.id] = friction_of(stop, case.scenario)
 
     def campaign(self, results: Sequence[CaseResult]) -> report.Campaign:
         """Return what the stops observed show together; `results` are those of all."""
+        passed_over = (passed_over_table(self._passed_over),) if self._passed_over else ()
         if not results:
-            return report.Campaign((self.without_stop,))
+            return report.Campaign((self.without_stop,), passed_over)
         series = wet_series(self._stops)
         return report.Campaign(
             (*self._record_sentences(), *self._group_sentences(series), self._rail_sentence()),
             (
-                worst_table(ranked_rows(results, self._stops, self._events)),
+                worst_table(results, self._stops, self._events),
                 dry_table(self._stops),
                 *((friction_table(self._stops, self._frictions),) if self._frictions else ()),
                 *((series_table(series),) if series else ()),
                 wet_table(self._stops, series),
+                *passed_over,
             ),
         )
-
-    def stops_table(self, results: Sequence[CaseResult]) -> Data:
-        """Return the stops with their places in the log, the worst first, then what was passed over."""
-        ranked = ranked_rows(results, self._stops, self._events)
-        stops = [{"stop": row.pop(report.STOPS), **row} for row in ranked]
-        return Data.of([*stops, *map(event_row, self._passed_over)])
 
     @property
     def without_stop(self) -> str:

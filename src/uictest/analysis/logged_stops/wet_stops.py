@@ -73,24 +73,32 @@ _SERIES: Final = (
 
 def series_table(result: judged_series.SeriesResult) -> report.CampaignTable:
     """Return the measures of the wet stops from each speed."""
-    rows: list[tuple[Cell, ...]] = []
+    records: list[dict[str, Cell]] = []
     for speed in result.speeds:
         for name in _SHOWN:
-            value, measure = speed.measures[name], SERIES_MEASURES[name]
+            value, unit = speed.measures[name], SERIES_MEASURES[name].unit
             estimate = value.estimate
-            numbers = (estimate.value, estimate.low, estimate.high) if estimate else (None, None, None)
-            unit = "" if measure.unit == "1" else measure.unit
-            counts = speed.dry.counted, speed.wet.counted
-            remark = report.missing_interval(estimate) if estimate else value.unavailable_reason
-            rows.append((speed.speed_kmh, name, *numbers, unit, *counts, remark))
-    return report.CampaignTable(
+            records.append(
+                {
+                    "speed_kmh": speed.speed_kmh,
+                    "measure": name,
+                    "value": estimate.value if estimate else None,
+                    "low": estimate.low if estimate else None,
+                    "high": estimate.high if estimate else None,
+                    "unit": "" if unit == "1" else unit,
+                    "dry_stops": speed.dry.counted,
+                    "wet_stops": speed.wet.counted,
+                    "remark": report.missing_interval(estimate) if estimate else value.unavailable_reason,
+                }
+            )
+    return report.CampaignTable.of_records(
         "wet_series",
         "Wet stops as a series",
         "As `uictest evaluate` judges a series; a stop that is no valid test, or was not judged, does not"
         " count. Distances are brought to the nominal speed; intervals hold the scatter of the dry stops.",
         "detail",
         _SERIES,
-        tuple(rows),
+        records,
     )
 
 
@@ -109,24 +117,31 @@ def wet_table(stops: Sequence[LoggedStop], result: judged_series.SeriesResult | 
     """Return every wet stop with its extension over the dry ones, and whether it counts."""
     lengths = extensions(stops)
     uncounted = {each.case: each.reason for each in result.not_counted} if result else {}
-    rows = []
+    records: list[dict[str, Cell]] = []
     for stop in stops:
         if stop.dry:
             continue
-        name = stop.result.id
-        distance = float((stop.result.measures or {}).get("braking_distance_m", math.nan))
-        why = uncounted.get(name, "") if stop.grouped else "in no group of speeds"
-        counts = "yes" if stop.grouped and name not in uncounted else "no"
-        cells = distance, lengths.get(name), why or stop.result.reason
-        rows.append((name, stop.speed, stop.result.outcome, counts, *cells))
-    return report.CampaignTable(
+        judged = stop.result
+        why = uncounted.get(judged.id, "") if stop.grouped else "in no group of speeds"
+        records.append(
+            {
+                report.STOPS: judged.id,
+                "speed_kmh": stop.speed,
+                "outcome": judged.outcome,
+                "counts": "yes" if stop.grouped and judged.id not in uncounted else "no",
+                "braking_distance_m": float((judged.measures or {}).get("braking_distance_m", math.nan)),
+                "extension_percent": lengths.get(judged.id),
+                "remark": why or judged.reason,
+            }
+        )
+    return report.CampaignTable.of_records(
         "wet_stops",
         "Wet stops",
         "Extension: braking distance over the mean of the dry stops, without outliers, from the same nominal"
         " speed, each brought to it.",
         "detail",
         _WET,
-        tuple(rows),
+        records,
     )
 
 

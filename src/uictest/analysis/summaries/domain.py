@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.analysis import validation
-from uictest.judging.evaluation import Deviation, EffectiveParts
-from uictest.plans.scenario import Scenario
+from uictest.judging.evaluation import Deviation, effective_parts
 from uictest.plans.sweeps import Plan
 from uictest.report import OutsideCount, SweepDomain
 from uictest.running.chunked import number_column, text_column
@@ -80,7 +79,6 @@ class _ConditionsOfCases:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        self._parts = EffectiveParts()
         self._known: dict[tuple[str, ...], validation.Conditions] = {}
         # A key of one car of a train is no condition by its name.
         keys = [key for key in plan.keys if plan.own_keys or validation.is_condition(key)]
@@ -117,10 +115,7 @@ class _ConditionsOfCases:
         return {texts: np.array(own) for texts, own in rows.items()}
 
     def _of_case(self, index: int) -> validation.Conditions:
-        return validation.conditions_of(self._parts.of(self._scenario(index)))
-
-    def _scenario(self, index: int) -> Scenario:
-        return self._plan.cases(np.array([index]))[0].scenario
+        return validation.conditions_of(effective_parts(self._plan.cases(np.array([index]))[0].scenario))
 
     def _number_of(self, key: str, conditions: validation.Conditions) -> str | None:
         """Return the condition that a number is by itself, and no other; None where there is no such one."""
@@ -147,7 +142,6 @@ def _spanning(one: Deviation, other: Deviation) -> Deviation:
 
 
 def _texts(masks: Mapping[str, NDArray[np.bool_]], rows: int) -> Sequence[str]:
-    """Return the keys that lie outside in each row, as one text."""
     if not masks:
         return [""] * rows
     keys = list(masks)

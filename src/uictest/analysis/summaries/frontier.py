@@ -17,7 +17,7 @@ from uictest.plans.scenario.yaml import (
     DecimalQuantity,
     Document,
     Entry,
-    Place,
+    Location,
     Quantity,
     Scalar,
     common_unit,
@@ -28,7 +28,7 @@ from uictest.plans.scenario.yaml import (
 from uictest.plans.sweeps import ListedGroup, ParameterValue, Plan, content_of, is_free, kind_of
 from uictest.report import Flip, FrontierScan, WrittenValue
 from uictest.running.campaign import map_on_threads
-from uictest.running.chunked import ChunkRunner, chunk_runner
+from uictest.running.chunked import ChunkRunner
 
 UNKNOWN: Final = -1
 """Verdict of a case that was not run."""
@@ -82,15 +82,12 @@ class FrontierSearch:
             verdicts: of every case of the plan.
             judge: gives the verdicts of further cases: those of a plan with the given indices.
         """
-        scanned = self._scanned_verdicts(verdicts)
+        # By combination of the others and rising value of the parameter.
+        cube = np.moveaxis(verdicts.reshape([group.size for group in self.plan.groups]), self._place, -1)
+        scanned = cube.reshape(-1, self._group.size)[:, self._order]
         brackets = [bracket for number, row in enumerate(scanned) for bracket in self._brackets(number, row)]
         self._narrow(brackets, judge)
         return [self._scan(number, row, brackets) for number, row in enumerate(scanned)]
-
-    def _scanned_verdicts(self, verdicts: Verdicts) -> Verdicts:
-        """Return the verdicts by combination of the others and rising value of the parameter."""
-        cube = np.moveaxis(verdicts.reshape([group.size for group in self.plan.groups]), self._place, -1)
-        return cube.reshape(-1, self._group.size)[:, self._order]
 
     def _brackets(self, combination: int, row: Verdicts) -> list[_Bracket]:
         numbers = [self._scanned_values[k].number for k in self._order]
@@ -128,25 +125,21 @@ class FrontierSearch:
     def _value(self, number: Decimal) -> ParameterValue:
         text = quantity_text(number, self.unit)
         example = self._group.rows[0][0].content
-        place = Place(Document("--frontier", Path(), text))
+        place = Location(Document("--frontier", Path(), text))
         setting = Setting(self.key, Entry(place, Scalar(text, text, place)), 1)
         return ParameterValue(text, content_of(text, kind_of(example, self.unit)), value_label(setting))
 
     def _scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
+        own = [bracket for bracket in brackets if bracket.combination == number]
+        ends = [(quantity_text(each.low, self.unit), quantity_text(each.high, self.unit)) for each in own]
         flips = tuple(
-            Flip(self._written(bracket.low), self._written(bracket.high), bracket.met_at_low)
-            for bracket in brackets
-            if bracket.combination == number
+            Flip(WrittenValue(low), WrittenValue(high), each.met_at_low)
+            for each, (low, high) in zip(own, ends, strict=True)
         )
-        return FrontierScan(self._circumstances(number), flips, _note(row, len(flips)))
-
-    def _written(self, number: Decimal) -> WrittenValue:
-        return WrittenValue(quantity_text(number, self.unit))
-
-    def _circumstances(self, combination: int) -> dict[str, WrittenValue]:
-        plan, indices = self._cases([combination], [self._scanned_values[0].number])
+        plan, indices = self._cases([number], [self._scanned_values[0].number])
         settings = plan.settings(indices).items()
-        return {key: WrittenValue(values[0].text) for key, values in settings if key != self.key}
+        others = {key: WrittenValue(values[0].text) for key, values in settings if key != self.key}
+        return FrontierScan(others, flips, _note(row, len(flips)))
 
 
 def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
@@ -182,11 +175,11 @@ def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, job
 
     `runner` is that of another plan of the same sweep.
     """
-    runner = chunk_runner(plan, runner.run_block, runner.run_train)
+    runner = runner.of_plan(plan)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
-        _, results, _ = runner.results_of(block)
-        return [each.met for each in results]
+        results, _ = runner.results(block, plan.settings(block))
+        return [result.met for result in results]
 
     blocks = np.array_split(indices, max(jobs, -(-indices.size // _CASES_AT_ONCE)))
     verdicts = map_on_threads(met, [block for block in blocks if block.size], jobs=jobs)

@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 from uictest.analysis import validation
 from uictest.analysis.summaries.domain import DomainTally
 from uictest.analysis.summaries.frontier import UNKNOWN, Verdicts
-from uictest.analysis.summaries.reported_measures import MeasureSums, reported_measures
 from uictest.analysis.summaries.sensitivity import sobol_sensitivities, uncertainty_note
 from uictest.analysis.summaries.tally import Tally, logarithmic_keys
-from uictest.analysis.summaries.trends import MOST_VALUES, MapSums, TrendSums
-from uictest.analysis.summaries.worst import WorstCases, summary_files
-from uictest.judging.evaluation import EffectiveParts
+from uictest.analysis.summaries.trends import MOST_VALUES, MapSums, MeasureSums, TrendSums, reported_measures
+from uictest.analysis.summaries.worst import WorstCases, summary_file
+from uictest.judging.evaluation import effective_parts
 from uictest.plans.scenario import named_requirements
 from uictest.plans.sweeps import Plan, drawn_ranges, each_controller, saltelli_sample
 from uictest.report import (
@@ -32,14 +31,7 @@ from uictest.report import (
     domain_notes,
     survey_notes,
 )
-from uictest.running.chunked import (
-    CaseSelection,
-    ChunkStore,
-    named_controller,
-    repeated_cases,
-    survey_step,
-    text_column,
-)
+from uictest.running.chunked import CaseSelection, ChunkStore, named_controller, repeated_cases, survey_step
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -74,7 +66,7 @@ def summarized(
     *,
     csv: bool = True,
 ) -> Iterator[Summary]:
-    """Lend the summary of a sweep; summary.parquet and summary.csv appear when the block ends.
+    """Lend the summary of a sweep; summary.parquet appears when the block ends.
 
     Args:
         selection: the cases of the sweep.
@@ -82,11 +74,11 @@ def summarized(
         pair: the two parameters of the maps, None for no map.
         measures: columns to map and to compute sensitivities of, besides the verdict.
         reference: validation that the cases are held against; they get a column of what lies outside.
-        csv: whether to write summary.csv.
+        csv: whether summary.csv is written, too; else a note says how.
 
     Raises OSError where a file cannot be written.
     """
-    with summary_files(store.folder, csv=csv) as write:
+    with summary_file(store.folder) as write:
         yield Summary(selection, store, pair, measures, reference, write, csv)
 
 
@@ -123,22 +115,17 @@ class Summary:
             self._sums.add(table)
             self._added += 1
 
-    def _add_to_trends(self) -> None:
-        """Read the chunks a second time, if anything needs it: only now it is known which cases count."""
-        sums = self._sums
-        if not sums.trends:
-            return
-        for table in self.store.tables(range(self.selection.chunks), sums.columns_read_twice()):
-            for trend in sums.trends:
-                trend.add(table)
-
     def result(self) -> SweepSummary:
         """Add the chunks that are left, and return what all come to. Raises OSError, MissingChunksError."""
         self.add_up_to(self.selection.chunks)
         sums, plan = self._sums, self.selection.plan
         survey = survey_step(plan, sums.repeated, self.measures)
         of_validity = None if self._domain is None else self._domain.result()
-        self._add_to_trends()
+        # Read a second time: only now it is known which cases count in trends.
+        chunks = range(self.selection.chunks if sums.trends else 0)
+        for table in self.store.tables(chunks, sums.columns_read_twice()):
+            for trend in sums.trends:
+                trend.add(table)
         sensitivities, notes = _sensitivities(plan, sums.sampled_columns())
         result = _result(
             sums,
@@ -148,8 +135,7 @@ class Summary:
             notes=(
                 *survey_notes(survey, sums.tally.cases),
                 *domain_notes(of_validity, sums.tally.cases),
-                *_requirement_notes(plan),
-                *_not_judged_notes(sums.tally.outcomes),
+                *_notes(plan, sums.tally.outcomes),
                 *map(str, drawn_ranges(plan)),
                 *notes,
                 *(() if self.csv else (_WITHOUT_CSV,)),
@@ -198,8 +184,8 @@ class _Sums:
     def columns_read_twice(self) -> list[str]:
         """Return the columns that trends add up."""
         measured = (column for each in self.measures for column in each.measure.columns)
-        texts = (text_column(trend.bins.key) for trend in self.trends)
-        return list(dict.fromkeys(("index", *texts, *measured)))
+        values = (trend.bins.column for trend in self.trends)
+        return list(dict.fromkeys(("index", *values, *measured)))
 
     def sampled_columns(self) -> Columns:
         """Return the columns that sensitivities are computed of; none without a whole Saltelli sample."""
@@ -231,7 +217,7 @@ def _result(
         maps=tuple(each.map() for each in sums.maps),
         measures=tuple(each.range() for each in sums.measures if each.cases),
         trends=tuple(trend for each in sums.trends for trend in each.trends()),
-        base=EffectiveParts().of(plan.base.scenario),
+        base=effective_parts(plan.base.scenario),
         varied=plan.keys,
         logarithmic=logarithmic_keys(plan),
         requirements=named_requirements(plan.base.scenario),
@@ -247,12 +233,10 @@ def _result(
     )
 
 
-def _requirement_notes(plan: Plan) -> Iterator[str]:
+def _notes(plan: Plan, outcomes: Mapping[str, int]) -> Iterator[str]:
+    """Yield the requirements of the scenario, and how many cases are not judged or inconclusive."""
     if requirements := named_requirements(plan.base.scenario):
         yield f"requirements that the scenario and its criteria name: {', '.join(requirements)}"
-
-
-def _not_judged_notes(outcomes: Mapping[str, int]) -> Iterator[str]:
     if count := outcomes["skipped"]:
         yield f"{counted(count, 'case')} not judged, since no criterion applies: met by `expect: skipped`"
     if count := outcomes["inconclusive"]:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.plans.sweeps import Group, ListedGroup, ParameterDraw, Plan
-from uictest.report import DrawnInterval, MissedCase, OutcomeCount, SweptValue, WrittenValue
-from uictest.running.chunked import text_column
+from uictest.report import DrawnInterval, MissedCase, OutcomeCount, SweptValue, WrittenValue, interval_indices
+from uictest.running.chunked import number_column, text_column
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -32,8 +32,6 @@ class ParameterBins:
     values: tuple[SweptValue, ...]
     place: tuple[int, int]
     """Group of the plan that holds the parameter, and its place in the group."""
-    edges: tuple[float, ...] = ()
-    """Inner edges of the intervals, in the unit of their distribution; none for listed values."""
     bin_of_row: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, np.int64), compare=False)
     """Bin of each row of listed values: rows of a zip may share a value of one of their parameters."""
 
@@ -42,12 +40,18 @@ class ParameterBins:
         if isinstance(plan.groups[self.place[0]], ListedGroup):
             bins: NDArray[np.int64] = self.bin_of_row[plan.rows(indices)[self.place[0]]]
             return bins
-        texts = table.column(text_column(self.key)).to_pylist()
-        if not self.edges:
-            numbered = {value.label: number for number, value in enumerate(self.values)}
-            return np.array([numbered[text] for text in texts], np.int64)
-        numbers = np.array([float(text.split(" ", 1)[0]) for text in texts])
-        return np.searchsorted(self.edges, numbers, side="right").astype(np.int64)
+        intervals = [value for value in self.values if isinstance(value, DrawnInterval)]
+        values = table.column(self.column)
+        if intervals:
+            return interval_indices(intervals, values.to_numpy())
+        numbered = {value.label: number for number, value in enumerate(self.values)}
+        return np.array([numbered[text] for text in values.to_pylist()], np.int64)
+
+    @property
+    def column(self) -> str:
+        """The column of the rows that says in which bin they are."""
+        drawn = isinstance(self.values[0], DrawnInterval)
+        return number_column(self.key) if drawn else text_column(self.key)
 
 
 def bins_of_plan(plan: Plan) -> dict[str, ParameterBins]:
@@ -56,16 +60,14 @@ def bins_of_plan(plan: Plan) -> dict[str, ParameterBins]:
     for number, group in enumerate(plan.groups):
         for place, key in enumerate(group.keys):
             if isinstance(group, ListedGroup):
-                bins[key] = _listed_bins(key, [row[place].text for row in group.rows], (number, place))
+                texts = [row[place].text for row in group.rows]
+                numbered = {text: index for index, text in enumerate(dict.fromkeys(texts))}
+                bin_of_row = np.array([numbered[text] for text in texts])
+                values = tuple(map(WrittenValue, numbered))
+                bins[key] = ParameterBins(key, values, (number, place), bin_of_row)
             else:
                 bins[key] = _drawn_bins(key, group.draws[place], (number, place))
     return bins
-
-
-def _listed_bins(key: str, texts: Sequence[str], place: tuple[int, int]) -> ParameterBins:
-    numbered = {text: number for number, text in enumerate(dict.fromkeys(texts))}
-    bin_of_row = np.array([numbered[text] for text in texts])
-    return ParameterBins(key, tuple(map(WrittenValue, numbered)), place, bin_of_row=bin_of_row)
 
 
 def _drawn_bins(key: str, draw: ParameterDraw, place: tuple[int, int]) -> ParameterBins:
@@ -73,14 +75,10 @@ def _drawn_bins(key: str, draw: ParameterDraw, place: tuple[int, int]) -> Parame
         return ParameterBins(key, tuple(WrittenValue(value.text) for value in draw.choices), place)
     low, high = draw.distribution.bounds
     ends = float(low.number), float(high.number)
-    edges: Any = _even_ratios(*ends) if draw.distribution.log_uniform else _even_steps(*ends)
+    even_steps: list[float] = np.linspace(*ends, INTERVALS + 1).tolist()
+    edges = _even_ratios(*ends) if draw.distribution.log_uniform else even_steps
     intervals = tuple(DrawnInterval(start, end, low.unit) for start, end in pairwise(edges))
-    return ParameterBins(key, intervals, place, tuple(edges[1:-1]))
-
-
-def _even_steps(low: float, high: float) -> list[float]:
-    edges: list[float] = np.linspace(low, high, INTERVALS + 1).tolist()
-    return edges
+    return ParameterBins(key, intervals, place)
 
 
 def _even_ratios(low: float, high: float) -> list[float]:
@@ -121,7 +119,9 @@ class Tally:
         _count(self._total[None], np.zeros_like(outcomes), outcomes, met)
         for key, each in self.bins.items():
             _count(self._counts[key], each.of(self.plan, indices, table), outcomes, met)
-        self._add_missed(table, met)
+        for row in np.flatnonzero(~met)[: MOST_EXAMPLES - len(self.missed)].tolist():
+            texts = (str(table.column(name)[row].as_py()) for name in ("id", "outcome", "reason"))
+            self.missed.append(MissedCase(*texts))
 
     @property
     def cases(self) -> int:
@@ -145,11 +145,6 @@ class Tally:
             OutcomeCount(value, sum(outcomes), met, dict(zip(OUTCOMES, outcomes, strict=True)))
             for value, (*outcomes, met) in rows
         )
-
-    def _add_missed(self, table: pa.Table, met: NDArray[np.bool_]) -> None:
-        for place in np.flatnonzero(~met)[: MOST_EXAMPLES - len(self.missed)].tolist():
-            texts = (str(table.column(name)[place].as_py()) for name in ("id", "outcome", "reason"))
-            self.missed.append(MissedCase(*texts))
 
 
 def _count(counts: NDArray[np.int64], bins: Any, outcomes: Any, met: Any) -> None:

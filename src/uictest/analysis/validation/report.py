@@ -1,17 +1,18 @@
-"""A validation as a document, and as tables for programs."""
+"""A validation as a document for people, as tables and as a page."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Final
 
-from uictest.analysis.validation.document import Validation
-from uictest.analysis.validation.domain import Conditions, Domain
-from uictest.analysis.validation.stops import Agreement, ComparedStop, Differences
-from uictest.core.document import Cell, Column, Data, Document, Lines, Table
+from uictest.analysis.validation.document import Agreement, ComparedStop, Differences, Validation
+from uictest.analysis.validation.domain import Domain
+from uictest.core.document import Cell, Column, Document, Lines, Table, table_of
 from uictest.core.measures import STOP_COLUMNS, without_wheelset
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.report import counted, interval_text
+from uictest.report.page import Effect, forest, render
 
 _ALWAYS: Final = ("initial_speed", "brake.command", "rail.friction", "rail.gradient", "vehicle.body.mass")
 """Numbers of a domain that are shown even where they are the same in all stops."""
@@ -60,14 +61,15 @@ def validation_document(validation: Validation, *, every_figure: bool = True) ->
     """Return stops, figures, domain and remarks; `every_figure`: those of single wheelsets too."""
     shown = [each for each in validation.figures if every_figure or each.figure in STOP_COLUMNS]
     further = len(validation.figures) - len(shown)
-    more = [f"{further} figures of single wheelsets: -v, figures.csv"] if further else []
+    more = [f"{further} figures of single wheelsets: -v, tables/figures.csv"] if further else []
+    domains = [f"domain {n}: {domain_text(each)}" for n, each in enumerate(validation.domains, start=1)]
     about = [validation.title, f"uictest {validation.version}, {tally(validation)}."]
     return Document(
         f"Validation {validation.name}",
         [
             Lines(list(_stop_lines(validation)), "Stops"),
-            Table(_FIGURES, shown, "Figures", more="figures.csv has them"),
-            Lines(list(_domain_lines(validation)), "Domain"),
+            Table(_FIGURES, shown, "Figures", all_in="tables/figures.csv"),
+            Lines(domains, "Domain"),
             Lines([*remarks(validation), *more], "Remarks"),
         ],
         list(filter(None, about)),
@@ -82,7 +84,9 @@ def tally(validation: Validation) -> str:
 def _stop_lines(validation: Validation) -> Iterator[str]:
     for stop in validation.stops:
         one, other = (each.get(_DISTANCE, float("nan")) for each in (stop.recorded, stop.simulated))
-        figures = f"recorded {_number(one)} m, simulated {_number(other)} m ({_percent(one, other)})"
+        percent = 100.0 * (other - one) / one if one else float("nan")
+        relative = "-" if percent != percent else f"{percent:+.2f} %"
+        figures = f"recorded {_number(one)} m, simulated {_number(other)} m ({relative})"
         speed = f"from {stop.initial_speed / KILOMETRE_PER_HOUR:.4g} km/h"
         if stop.tuned:
             figures += "; not counted: numbers of its scenario were found with it"
@@ -90,37 +94,21 @@ def _stop_lines(validation: Validation) -> Iterator[str]:
         yield f"stop {stop.id} {speed}: {shown}"
 
 
-def _percent(recorded: float, simulated: float) -> str:
-    share = (simulated - recorded) / recorded if recorded else float("nan")
-    return "-" if share != share else f"{100.0 * share:+.2f} %"
-
-
-def _domain_lines(validation: Validation) -> Iterator[str]:
-    for number, domain in enumerate(validation.domains, start=1):
-        yield f"domain {number}: {domain_text(domain)}"
-
-
 def domain_text(domain: Domain) -> str:
     """Return a domain in one sentence; what is the same in all of its stops is counted, but for the usual."""
     conditions = domain.conditions
     names = [f"{key} {name}" for key, name in conditions.names.items()]
     settings = [f"{key} {conditions.settings[key]}" for key in _SETTINGS if key in conditions.settings]
-    shown = [key for key in conditions.ranges if key in _ALWAYS or _varies(conditions, key)]
-    ranges = [f"{key} {_range_text(conditions, key)}" for key in shown]
+    shown = {
+        key: interval_text(each.lowest, each.highest, each.unit)
+        for key, each in conditions.ranges.items()
+        if key in _ALWAYS or each.lowest < each.highest
+    }
+    ranges = [f"{key} {text}" for key, text in shown.items()]
     further = len(conditions.ranges) + len(conditions.settings) - len(shown) - len(settings)
     stops = f"{domain.stops} stop" + ("s" if domain.stops > 1 else "")
     listed = "; ".join((*names, *settings, *ranges))
     return f"{stops}: {listed}; {further} further numbers and settings as in these stops"
-
-
-def _varies(conditions: Conditions, key: str) -> bool:
-    interval = conditions.ranges[key]
-    return interval.lowest < interval.highest
-
-
-def _range_text(conditions: Conditions, key: str) -> str:
-    interval = conditions.ranges[key]
-    return interval_text(interval.lowest, interval.highest, interval.unit)
 
 
 def remarks(validation: Validation) -> Iterator[str]:
@@ -150,11 +138,11 @@ def _draws(validation: Validation) -> str:
         return "not known: stops that share a seed and a speed share a draw, and the intervals are too narrow"
     return (
         f"{_DRAWS}, from the seed of its scenario and the SHA-256 of its recording, whatever the other stops"
-        " are; stops.csv has it"
+        " are; tables/stops.csv has it"
     )
 
 
-def figures_table(validation: Validation) -> Data:
+def figures_table(validation: Validation) -> Table:
     """Return every figure with its agreement, absolute and as a share of the recorded figure."""
     columns = ("figure", "unit", "stops", "draws", "recorded_mean")
     known = all(stop.seed is not None for stop in validation.counted)
@@ -171,20 +159,20 @@ def figures_table(validation: Validation) -> Data:
         }
         for each in validation.figures
     ]
-    return Data([*columns, *_OF_DIFFERENCES, *relative], rows)
+    return table_of("figures", rows, [*columns, *_OF_DIFFERENCES, *relative])
 
 
 def _values(differences: Differences, prefix: str) -> dict[str, float]:
     return {f"{prefix}{name}": getattr(differences, name) for name in _OF_DIFFERENCES}
 
 
-def stops_table(validation: Validation) -> Data:
+def stops_table(validation: Validation) -> Table:
     """Return one row for each figure of each stop: recorded, simulated and their difference."""
     columns = (
         *("stop", "recording", "counted", "tuned", "not_counted", "seed", "repeats"),
         *("figure", "recorded", "simulated", "difference"),
     )
-    return Data(columns, [row for stop in validation.stops for row in _rows(stop)])
+    return table_of("stops", [row for stop in validation.stops for row in _rows(stop)], columns)
 
 
 def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
@@ -203,3 +191,35 @@ def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
         simulated = stop.simulated.get(name, float("nan"))
         values = {"recorded": recorded, "simulated": simulated, "difference": simulated - recorded}
         yield {**shared, "figure": name, **values}
+
+
+def validation_html(validation: Validation) -> str:
+    """Return one page of recorded stops against their simulation; it loads nothing."""
+    effects = {each.figure: _effect(each) for each in validation.figures if each.figure in STOP_COLUMNS}
+    return render(
+        "validation.html.j2",
+        with_plots=False,
+        running_head=validation.name,
+        validation=validation,
+        document=validation_document(validation),
+        tally=tally(validation),
+        drawn=forest(
+            (effect for effect in effects.values() if effect is not None),
+            "Bias of each figure with its interval and the limits of agreement; the table has the numbers",
+            "simulated - recorded, % of recorded; band: limits of agreement; filled: not 0 by the interval",
+        ),
+        not_drawn=[figure for figure, effect in effects.items() if effect is None],
+    )
+
+
+def _effect(agreement: Agreement) -> Effect | None:
+    """Return the differences in per cent of the recorded figure; None where they have no such share."""
+    own = agreement.relative
+    if own is None:
+        return None
+    bias, low, high, *outer = (
+        100.0 * end for end in (own.bias, own.bias_low, own.bias_high, own.limits_low, own.limits_high)
+    )
+    if not math.isfinite(bias + low + high + sum(outer)):
+        return None
+    return Effect(agreement.figure, bias, low, high, (outer[0], outer[1]))

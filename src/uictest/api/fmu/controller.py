@@ -6,6 +6,7 @@ import hashlib
 import json
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import Any, Final, NamedTuple
@@ -13,14 +14,34 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from uictest import __version__, rig
-from uictest.api.fmu.binaries import SYSTEMS
-from uictest.api.fmu.building import archive_of
-from uictest.api.fmu.description import FmiVersion, Model, page, table, table_of_variables
-from uictest.api.fmu.exported import Exported, NotExportableError, Parameter, exported, parameter_of
+from uictest.api.fmu.building import SYSTEMS, archive_of, this_system
+from uictest.api.fmu.description import (
+    FmiVersion,
+    Model,
+    Variable,
+    of_wheelsets,
+    page,
+    table,
+    table_of_variables,
+)
 from uictest.api.fmu.resource import Content
-from uictest.api.fmu.variables import Variable, of_wheelsets
-from uictest.controllers import CONTROLLERS, DEFAULT, EXCHANGE, Config, ControllerProgram
+from uictest.controllers import (
+    CONTROLLERS,
+    DEFAULT,
+    EXCHANGE,
+    INPUTS,
+    Config,
+    ControllerError,
+    ControllerProgram,
+    DeclaredParameter,
+    parameter_problems,
+    shown_version,
+    stated_declarations,
+)
+from uictest.core import files
+from uictest.core.units import KINDS
 from uictest.plans import scenario
+from uictest.plans.scenario.yaml import parse_quantity
 
 
 def _input(name: str, description: str, unit: str = "", *, truth: str = "") -> Variable:
@@ -99,16 +120,16 @@ def build_controller_fmu(
 
 
 def _notes(program: ControllerProgram | None, controller: Exported) -> Iterator[str]:
-    for each in controller.parameters:
-        if not each.is_variable:
-            yield f"the parameter {each.name} is no number: it cannot be set in the FMU"
+    for parameter in controller.parameters:
+        if not parameter.is_variable:
+            yield f"the parameter {parameter.name} is no number: it cannot be set in the FMU"
     if controller.libraries and len(controller.libraries) < len(SYSTEMS):
         yield (
             f"the FMU is for {' and '.join(controller.libraries)} alone; from its C sources, with ziglang"
             f" installed, it is for {', '.join(SYSTEMS)}"
         )
     folder = str(Path(program.location).parent) if program is not None else "/"
-    if folder != "/" and any(folder.encode() in each for each in controller.libraries.values()):
+    if folder != "/" and any(folder.encode() in library for library in controller.libraries.values()):
         yield f"the library holds the name of the folder {folder}: build it without -g, or use `strip -g`"
 
 
@@ -151,11 +172,10 @@ _PATHS: Final = {
 
 
 def _paths_of_parameters(controller: Exported) -> dict[str, str]:
-    """Return where the parameters lie in the memory of an instance."""
     if not controller.libraries:
-        return {each.name: f"parameters.{each.name}" for each in controller.parameters}
-    own = (each for each in controller.parameters if each.is_variable)
-    return {each.name: f"parameter_{place}" for place, each in enumerate(own)}
+        return {parameter.name: f"parameters.{parameter.name}" for parameter in controller.parameters}
+    settable = (parameter for parameter in controller.parameters if parameter.is_variable)
+    return {parameter.name: f"parameter_{number}" for number, parameter in enumerate(settable)}
 
 
 def _start(controller: Exported, config: Config, paths: Mapping[str, str]) -> Any:
@@ -170,12 +190,12 @@ def _start(controller: Exported, config: Config, paths: Mapping[str, str]) -> An
     parameters = start["parameters"]
     parameters["cycle_time"], parameters["initial_speed"] = config.cycle_time, config.initial_speed
     if controller.algorithm:
-        names = [each.name for each in rig.CHOICES]
+        names = [choice.name for choice in rig.CHOICES]
         parameters["controller"] = names.index(controller.algorithm)
-    for each in controller.parameters:
-        if each.is_variable:
-            folder, _, name = paths[each.name].rpartition(".")
-            (start[folder] if folder else start)[name] = each.value
+    for parameter in controller.parameters:
+        if parameter.is_variable:
+            folder, _, name = paths[parameter.name].rpartition(".")
+            (start[folder] if folder else start)[name] = parameter.value
     return start
 
 
@@ -188,12 +208,12 @@ def _content(controller: Exported, start: Any, paths: Mapping[str, str]) -> Cont
 
 def _json(controller: Exported, paths: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
     """Yield the parameters as the library writes them into the JSON object that the controller is given."""
-    for each in controller.parameters:
-        key = f"{json.dumps(each.name)}: "
-        if each.is_variable:
-            yield "truth" if isinstance(each.value, bool) else "number", key, paths[each.name]
+    for parameter in controller.parameters:
+        key = f"{json.dumps(parameter.name)}: "
+        if parameter.is_variable:
+            yield "truth" if isinstance(parameter.value, bool) else "number", key, paths[parameter.name]
         else:
-            yield "fixed", key + json.dumps(each.value), ""
+            yield "fixed", key + json.dumps(parameter.value), ""
 
 
 def _variables(controller: Exported, config: Config, paths: Mapping[str, str]) -> tuple[Variable, ...]:
@@ -207,10 +227,12 @@ def _variables(controller: Exported, config: Config, paths: Mapping[str, str]) -
         parameter_of("cycle_time", config.cycle_time, cycle_time).variable(_PATHS["cycle_time"]),
         *of_wheelsets(radius.variable("wheel_radius")),
     )
-    own = [each for each in controller.parameters if each.is_variable]
-    for name in {each.name for each in own}.intersection(each.name for each in variables):
+    settable = [parameter for parameter in controller.parameters if parameter.is_variable]
+    for name in {parameter.name for parameter in settable}.intersection(
+        parameter.name for parameter in variables
+    ):
         raise NotExportableError(f"the parameter {name} has the name of a variable of the FMU: rename it")
-    return (*variables, *(each.variable(paths[each.name]) for each in own))
+    return (*variables, *(parameter.variable(paths[parameter.name]) for parameter in settable))
 
 
 def _page(model: Model, libraries: Mapping[str, bytes]) -> bytes:
@@ -226,3 +248,125 @@ def _page(model: Model, libraries: Mapping[str, bytes]) -> bytes:
         *table(("controller", "version or SHA-256"), facts),
         *table_of_variables(model.variables),
     )
+
+
+class NotExportableError(Exception):
+    """A controller cannot be an FMU; the message says what can."""
+
+
+class Parameter(NamedTuple):
+    """One parameter and its value where nobody sets it."""
+
+    name: str
+    value: Any
+    unit: str = ""
+    range: tuple[float, float] | None = None
+    description: str = ""
+
+    @property
+    def is_variable(self) -> bool:
+        """Whether the FMU has it as a variable: numbers and truth values, not texts, lists and mappings."""
+        return isinstance(self.value, bool | int | float)
+
+    def variable(self, path: str) -> Variable:
+        """Return it as a variable whose value lies in a field."""
+        is_truth = isinstance(self.value, bool)
+        return Variable(
+            self.name,
+            path,
+            self.description or f"Parameter {self.name} of the controller",
+            "" if self.unit == "1" else self.unit,
+            "boolean" if is_truth else "real",
+            "parameter",
+            start=json.dumps(self.value) if is_truth else repr(float(self.value)),
+            range=self.range,
+        )
+
+
+class Exported(NamedTuple):
+    """What is exported: libraries by the names of their systems, or a built-in one by its name."""
+
+    libraries: Mapping[str, bytes]
+    version: str
+    parameters: tuple[Parameter, ...]
+    contract: int
+    algorithm: str = ""
+
+
+def exported(part: Any, config: Config, libraries: Mapping[str, bytes] | None) -> Exported:
+    """Return the controller of a scenario as it is exported.
+
+    Args:
+        part: the controller.
+        config: what it is given while it is asked for its parameters.
+        libraries: as :func:`~uictest.api.fmu.compiled` gives them; None: the part's own, for this system.
+
+    Raises:
+        NotExportableError: it is of a kind that cannot be exported.
+        CannotBuildError: no FMU can run a library of this system.
+        ControllerError: its library cannot be loaded, or creates no controller.
+    """
+    if part.program is None:
+        return _built_in(part)
+    if part.program.kind == "library":
+        own = libraries or {this_system(): Path(part.program.location).read_bytes()}
+        return _in_library(part, config, own)
+    raise NotExportableError(
+        f"a {part.tag} cannot be exported; accepted: a shared library (.so) or a part that names one, C"
+        f" sources (.c), and the built-in controllers {', '.join(sorted(CONTROLLERS))}"
+    )
+
+
+def _in_library(part: Any, config: Config, libraries: Mapping[str, bytes]) -> Exported:
+    """Ask a library for its version and parameters; it creates one controller, in a child process."""
+    path = Path(part.program.location)
+    with files.temporary_folder() as folder, rig.Workers() as workers:
+        # Alone, as in the FMU: a library that it needs and that lies beside it is not there.
+        files.write(folder, path.name, path.read_bytes())
+        program = replace(part.program, location=str(folder / path.name))
+        drives = workers.drive(rig.DriveRequest(program, config, np.zeros(0, INPUTS)))
+    declared: Any = part.declared_parameters or stated_declarations(drives.declares or "{}")
+    defaults = {
+        name: declaration.default for name, declaration in declared.items() if declaration.default is not None
+    }
+    values = {**defaults, **part.parameters}
+    if problems := [*parameter_problems(declared, values, free=True)]:
+        raise ControllerError(
+            "; ".join(f"parameter {declaration.name}: {declaration}" for declaration in problems)
+        )
+    parameters = []
+    for name, value in values.items():
+        declaration = declared.get(name)
+        about = (
+            (
+                declaration.unit,
+                tuple(declaration.range) if declaration.range else None,
+                declaration.description,
+            )
+            if declaration
+            else ()
+        )
+        parameters.append(Parameter(name, value, *about))
+    version = part.version or shown_version(drives.version)
+    return Exported(libraries, version, tuple(parameters), drives.contract)
+
+
+def parameter_of(name: str, value: float, declared: DeclaredParameter) -> Parameter:
+    """Return a parameter of a built-in controller."""
+    at_least, at_most = (
+        float(parse_quantity(bound, declared.kind)) for bound in (declared.at_least, declared.at_most)
+    )
+    return Parameter(name, value, KINDS[declared.kind].canonical, (at_least, at_most), declared.description)
+
+
+def _built_in(part: Any) -> Exported:
+    controller = CONTROLLERS[part.algorithm]
+    declared = {
+        name: declaration
+        for name, declaration in controller.declared_parameters().items()
+        if name != "cycle_time"
+    }
+    parameters = (
+        parameter_of(name, float(getattr(part, name)), declaration) for name, declaration in declared.items()
+    )
+    return Exported({}, __version__, tuple(parameters), controller.contract, part.algorithm)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
-from typing import Final, Literal
+from typing import Any, Final, Literal
 from xml.etree import ElementTree
 
 from uictest import __version__
-from uictest.api.fmu.variables import Variable
 
 FmiVersion = Literal[2, 3]
 _UNITS: Final = {
@@ -98,13 +97,15 @@ def _add_capabilities(root: ElementTree.Element, model: Model, version: FmiVersi
 def _add_units(root: ElementTree.Element, model: Model) -> None:
     used = {variable.unit: () for variable in model.variables if variable.unit}
     definitions = ElementTree.SubElement(root, "UnitDefinitions")
-    for name in (*(each for each in _UNITS if each in used), *(each for each in used if each not in _UNITS)):
+    for name in (*(name for name in _UNITS if name in used), *(name for name in used if name not in _UNITS)):
         unit = ElementTree.SubElement(definitions, "Unit", name=name)
         if name in _UNITS:  # a controller declares its parameters in units of its own
-            ElementTree.SubElement(unit, "BaseUnit", {base: str(each) for base, each in _UNITS[name].items()})
+            ElementTree.SubElement(
+                unit, "BaseUnit", {base: str(exponent) for base, exponent in _UNITS[name].items()}
+            )
         if name in _DISPLAYED:
-            shown, factor = _DISPLAYED[name]
-            ElementTree.SubElement(unit, "DisplayUnit", name=shown, factor=factor)
+            displayed, factor = _DISPLAYED[name]
+            ElementTree.SubElement(unit, "DisplayUnit", name=displayed, factor=factor)
 
 
 def _add_variables(root: ElementTree.Element, model: Model, version: FmiVersion) -> None:
@@ -143,21 +144,21 @@ def _variability(variable: Variable) -> dict[str, str]:
 def _add_structure(root: ElementTree.Element, model: Model, version: FmiVersion) -> None:
     # No output depends on an input of the same instant: a loop of rig and controller can be solved.
     structure = ElementTree.SubElement(root, "ModelStructure")
-    outputs = [place for place, variable in enumerate(model.variables) if variable.causality == "output"]
+    outputs = [index for index, variable in enumerate(model.variables) if variable.causality == "output"]
     for name in ("Output", "InitialUnknown"):
         unknowns = ElementTree.SubElement(structure, f"{name}s") if version == 2 else structure
-        for place in outputs:
+        for index in outputs:
             if version == 2:
-                ElementTree.SubElement(unknowns, "Unknown", index=str(place + 1), dependencies="")
+                ElementTree.SubElement(unknowns, "Unknown", index=str(index + 1), dependencies="")
             else:
-                ElementTree.SubElement(unknowns, name, valueReference=str(place), dependencies="")
+                ElementTree.SubElement(unknowns, name, valueReference=str(index), dependencies="")
 
 
 def page(title: str, *parts: str) -> bytes:
     """Return `documentation/index.html`."""
-    shown = escape(title)
-    head = f"<!DOCTYPE html><meta charset='utf-8'><title>{shown}</title><style>{_STYLE}</style>"
-    return "\n".join((head, f"<h1>{shown}</h1>", *parts)).encode()
+    escaped = escape(title)
+    head = f"<!DOCTYPE html><meta charset='utf-8'><title>{escaped}</title><style>{_STYLE}</style>"
+    return "\n".join((head, f"<h1>{escaped}</h1>", *parts)).encode()
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
@@ -171,5 +172,57 @@ def table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[st
 def table_of_variables(variables: Sequence[Variable]) -> Iterator[str]:
     """Yield the lines of a table that says what each variable is."""
     yield "<h2>Variables</h2>"
-    rows = ((each.name, each.causality, each.unit, each.description) for each in variables)
+    rows = (
+        (variable.name, variable.causality, variable.unit, variable.description) for variable in variables
+    )
     yield from table(("name", "causality", "unit", "description"), rows)
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """One variable of an FMU.
+
+    Attributes:
+        name: in the model description.
+        path: dotted, of its field in the memory of an instance.
+        description: one line.
+        unit: empty for a pure number.
+        kind: of value.
+        causality: as FMI has it.
+        wheelset: which of several values in the field it is, from 0.
+        start: value before anybody sets it, as FMI writes it; empty for what is calculated.
+        range: smallest and largest value of a parameter; None where any is accepted.
+    """
+
+    name: str
+    path: str
+    description: str
+    unit: str = ""
+    kind: Literal["real", "boolean", "integer"] = "real"
+    causality: Literal["independent", "input", "output", "parameter"] = "output"
+    wheelset: int = 0
+    start: str = ""
+    range: tuple[float, float] | None = None
+
+
+def of_wheelsets(*variables: Variable) -> Iterator[Variable]:
+    """Yield each variable four times, numbered from 1."""
+    for variable in variables:
+        for number in range(1, 5):
+            name, description = f"{variable.name}_{number}", f"{variable.description}, wheelset {number}"
+            yield replace(variable, name=name, description=description, wheelset=number - 1)
+
+
+def place_of(memory: Any, path: str, wheelset: int = 0) -> tuple[int, str]:
+    """Return offset and storage of a field; of several, in an array of numbers or of records, one."""
+    layout, offset = memory, 0
+    for name in path.split("."):
+        if layout.subdtype is not None:  # an array of records: as many records as there are wheelsets, or one
+            record, shape = layout.subdtype
+            offset += (wheelset if shape[-1] > 1 else 0) * record.itemsize
+            layout = record
+        layout, offset = layout.fields[name][0], offset + layout.fields[name][1]
+    if layout.subdtype is not None:
+        layout = layout.subdtype[0]
+        offset += wheelset * layout.itemsize
+    return offset, layout.str[1:]

@@ -11,8 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest.api.fmu.description import Model
-from uictest.api.fmu.variables import Variable, place_of
+from uictest.api.fmu.description import Model, Variable, place_of
 
 FILE_NAME: Final = "resources/model.bin"
 MAGIC: Final = "uictest1"
@@ -66,8 +65,8 @@ class _Texts:
 
     def place(self, text: str) -> int:
         """Return where a text lies, which is added."""
-        self.content, place = self.content + text.encode() + b"\0", len(self.content)
-        return place
+        self.content, offset = self.content + text.encode() + b"\0", len(self.content)
+        return offset
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,13 +130,13 @@ class Content:
         return place_of(self.start.dtype, path)[0]
 
     def _variable_row(self, variable: Variable, texts: _Texts) -> tuple[float, ...]:
-        place, storage = place_of(self.start.dtype, variable.path, variable.wheelset)
+        offset, storage = place_of(self.start.dtype, variable.path, variable.wheelset)
         numbers = (
             ENUMERATIONS["KIND"].index(variable.kind),
             ENUMERATIONS["CAUSALITY"].index(variable.causality),
             ENUMERATIONS["STORAGE"].index("i4" if storage == "u4" else storage),  # bit by bit
         )
-        return (texts.place(variable.name), *numbers, place, *(variable.range or (-np.inf, np.inf)))
+        return (texts.place(variable.name), *numbers, offset, *(variable.range or (-np.inf, np.inf)))
 
 
 def _joined(head: Any, sections: Mapping[str, Any]) -> bytes:

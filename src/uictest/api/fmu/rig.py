@@ -14,9 +14,16 @@ import numpy as np
 
 from uictest import __version__, rig
 from uictest.api.fmu.building import archive_of
-from uictest.api.fmu.description import FmiVersion, Model, page, table, table_of_variables
+from uictest.api.fmu.description import (
+    FmiVersion,
+    Model,
+    Variable,
+    of_wheelsets,
+    page,
+    table,
+    table_of_variables,
+)
 from uictest.api.fmu.resource import Content
-from uictest.api.fmu.variables import Variable, of_wheelsets
 from uictest.controllers import OUTPUTS, UNTOUCHED
 from uictest.judging import evaluation
 from uictest.plans import scenario
@@ -33,52 +40,49 @@ def _command(name: str, description: str, kind: Literal["real", "boolean"] = "bo
     return Variable(name, f"commands.{name}", description, "", kind, "input", start=start)
 
 
+def _sensor(
+    name: str, description: str, unit: str = "", kind: Literal["real", "boolean"] = "real", field: str = ""
+) -> Variable:
+    """Return what a controller is shown; `field` of the exchange where that is not called as the variable."""
+    return Variable(name, f"stop.exchange.{field or name}", description, unit, kind)
+
+
+def _truth(name: str, description: str, unit: str = "") -> Variable:
+    return Variable(name, f"stop.modules.{name.removeprefix('true_')}", description, unit)
+
+
 VARIABLES: Final = (
     Variable("time", "time", "Time of the simulation", "s", causality="independent"),
     *of_wheelsets(
         _command("hold", "Holding magnet energised"),
         _command("vent", "Venting magnet energised; forbidden without the holding magnet"),
-        Variable(
-            "wheel_speed", "stop.exchange.wheel_speed", "Circumferential, as its sensor shows it", "m/s"
-        ),
-        Variable(
-            "speed_valid",
-            "stop.exchange.speed_valid",
-            "False where the speed sensor reports a fault",
-            kind="boolean",
-        ),
-        Variable(
-            "cylinder_pressure",
-            "stop.exchange.cylinder_pressure",
-            "Brake cylinder pressure above atmospheric, as its sensor shows it",
-            "Pa",
+        _sensor("wheel_speed", "Circumferential, as its sensor shows it", "m/s"),
+        _sensor("speed_valid", "False where the speed sensor reports a fault", kind="boolean"),
+        _sensor(
+            "cylinder_pressure", "Brake cylinder pressure above atmospheric, as its sensor shows it", "Pa"
         ),
     ),
-    Variable(
-        "brake_demand", "stop.exchange.brake_demand", "Share of full service; a brake is demanded above 0"
-    ),
+    _sensor("brake_demand", "Share of full service; a brake is demanded above 0"),
     Variable("train_speed", "stop.train.speed", "True speed of the train", "m/s"),
     Variable("distance", "stop.train.distance", "Distance since the brake command", "m"),
     Variable("brake_line_pressure", "stop.train.brake_line_pressure", "Above atmospheric", "Pa"),
     Variable("reservoir_pressure", "stop.train.reservoir_pressure", "Above atmospheric", "Pa"),
     Variable("stopped", "stop.car.stopped", "The train stands, or is at `until`", kind="boolean"),
     Variable(
-        "ended",
-        "ended",
-        "The train stands or the longest duration has passed; outputs stay",
+        *("ended", "ended", "The train stands or the longest duration has passed; outputs stay"),
         kind="boolean",
     ),
     Variable("braking_distance", "stop.car.stop_position", "0 until the train stands, or is at `until`", "m"),
     Variable("braking_time", "stop.car.stop_time", "0 until the train stands, or is at `until`", "s"),
     *of_wheelsets(
-        Variable("true_wheel_speed", "stop.modules.wheel_speed", "True circumferential speed", "m/s"),
-        Variable("slide", "stop.modules.slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
-        Variable("friction", "stop.modules.friction", "Friction coefficient of the rail under the wheelset"),
-        Variable("adhesion", "stop.modules.adhesion", "Adhesion in use"),
-        Variable("wheel_load", "stop.modules.wheel_load", "Load of one wheel", "N"),
-        Variable("tank_pressure", "stop.modules.tank_pressure", "True pressure above atmospheric", "Pa"),
-        Variable("clamping_force", "stop.modules.clamping_force", "Clamping force of one caliper", "N"),
-        Variable("brake_torque", "stop.modules.brake_torque", "Brake torque of the wheelset", "N.m"),
+        _truth("true_wheel_speed", "True circumferential speed", "m/s"),
+        _truth("slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
+        _truth("friction", "Friction coefficient of the rail under the wheelset"),
+        _truth("adhesion", "Adhesion in use"),
+        _truth("wheel_load", "Load of one wheel", "N"),
+        _truth("tank_pressure", "True pressure above atmospheric", "Pa"),
+        _truth("clamping_force", "Clamping force of one caliper", "N"),
+        _truth("brake_torque", "Brake torque of the wheelset", "N.m"),
     ),
     Variable("seed", "stop.parameters.seed", "Seed of noise and random rails", "", "integer", "parameter"),
 )
@@ -87,43 +91,20 @@ VARIABLES_2: Final = (
     *of_wheelsets(
         _command("dynamic_reduction", "Share that is taken off the dynamic brake, 0 to 1", "real"),
         _command("sand_request", "Asks for sand; obeyed by sanders with `when: requested`"),
-        Variable(
-            "dynamic_brake",
-            "stop.exchange.dynamic_brake",
-            "What the motor gives of what it could at its speed; 0 without a motor",
-        ),
+        _sensor("dynamic_brake", "What the motor gives of what it could at its speed; 0 without a motor"),
     ),
     _command("track_brake_request", "Asks for the track brake; obeyed with `when: requested`"),
-    Variable("axle_load", "stop.exchange.axle_load", "Of one axle at rest", "N"),
-    Variable(
-        "brake_command",
-        "stop.exchange.brake_command",
-        "Share of full service, before the delays of the brake",
-    ),
-    Variable(
+    _sensor("axle_load", "Of one axle at rest", "N"),
+    _sensor("brake_command", "Share of full service, before the delays of the brake"),
+    _sensor(
         "measured_train_speed",
-        "stop.exchange.train_speed",
         "From outside the wheelsets: the controller's train_speed; 0 where it is not valid",
         "m/s",
+        field="train_speed",
     ),
-    Variable(
-        "train_speed_valid",
-        "stop.exchange.train_speed_valid",
-        "False without such a source, and while it is lost",
-        kind="boolean",
-    ),
-    Variable(
-        "acceleration",
-        "stop.exchange.acceleration",
-        "As an accelerometer on the car shows it; 0 where it is not valid",
-        "m/s2",
-    ),
-    Variable(
-        "acceleration_valid",
-        "stop.exchange.acceleration_valid",
-        "False without an accelerometer",
-        kind="boolean",
-    ),
+    _sensor("train_speed_valid", "False without such a source, and while it is lost", kind="boolean"),
+    _sensor("acceleration", "As an accelerometer on the car shows it; 0 where it is not valid", "m/s2"),
+    _sensor("acceleration_valid", "False without an accelerometer", kind="boolean"),
 )
 """Further ones of a rig whose commands keep version 2 of the contract of controllers."""
 
@@ -191,8 +172,7 @@ def _seed(start: int, version: FmiVersion) -> Variable:
 
 
 def _parts_inside(case: scenario.Case) -> dict[str, evaluation.EffectivePart]:
-    """Return the parts that the FMU holds: the controller stays outside, and nothing is judged."""
-    parts = evaluation.EffectiveParts().of(case.scenario)
+    parts = evaluation.effective_parts(case.scenario)
     outside = ("controller", "criteria", "measures")
     return {role: part for role, part in parts.items() if role.partition(".")[0] not in outside}
 
@@ -210,9 +190,9 @@ def _content(inputs: StopInputs, contract: int) -> Content:
         "distances": case.distances,
         "rail": case.rail,
     }
-    constants = np.zeros(1, [(name, each.dtype, each.shape) for name, each in fixed.items()])
-    for name, each in fixed.items():
-        constants[name] = each
+    constants = np.zeros(1, [(name, values.dtype, values.shape) for name, values in fixed.items()])
+    for name, values in fixed.items():
+        constants[name] = values
     train = rig.TrainRecords(
         *(stop["car"], stop["bogies"], stop["wheelsets"], stop["parameters"]),
         *(constants[0]["wheelset_parameters"], stop["rail_memory"]),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -26,17 +26,14 @@ Recipe = Annotated[
     ),
 ]
 TraceFile = Annotated[
-    Path | None,
-    option("--trace FILE", "Recording whose pressure is demanded, instead of RECIPE."),
+    Path | None, option("--trace FILE", "Recording whose pressure is demanded, instead of RECIPE.")
 ]
 PressureChannel = Annotated[str, option("--pressure CHANNEL", "Channel of the demanded pressure in --trace.")]
 CommandChannel = Annotated[
-    str | None,
-    option("--command CHANNEL", "Channel of the valve command in --trace."),
+    str | None, option("--command CHANNEL", "Channel of the valve command in --trace.")
 ]
 RigOverrides = Annotated[
-    list[str] | None,
-    option("--set KEY=VALUE", "Set a key of the rig. May be repeated."),
+    list[str] | None, option("--set KEY=VALUE", "Set a key of the rig. May be repeated.")
 ]
 Output = Annotated[
     Path | None,
@@ -59,20 +56,23 @@ def bench(
     """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
     test = _test(recipe, trace, pressure, command, overrides or ())
     target = output or Path(f"{test.recipe.name}.parquet")
-    write = _writer(target)
-    samples = _run(test)
-    write(samples, target)
+    if target.suffix.lower() not in _FORMATS:
+        raise runs.InvalidInputError(f"{target}: write a .parquet or a .csv file")
+    files.require_place(target)
+    try:
+        samples = rig_bench.run_test(test)
+    except identification.UnsuitableRecordError as error:
+        raise runs.InvalidInputError(f"{error}") from error
+    except FileNotFoundError as error:
+        raise runs.InvalidInputError(f"{error.filename}: no such file") from error
+    formats.writer_of(_FORMATS[target.suffix.lower()])(samples, target)
     message(f"uictest: wrote {len(samples)} samples of {samples['time'][-1]:.1f} s to {target}")
     data(_summary(samples))
     return ExitCode.MET
 
 
 def _test(
-    recipe: str | None,
-    trace: Path | None,
-    pressure: str,
-    command: str | None,
-    overrides: Sequence[str],
+    recipe: str | None, trace: Path | None, pressure: str, command: str | None, overrides: Sequence[str]
 ) -> rig_bench.BenchTest:
     """Return the test of a recipe or of a recorded pressure. Raises InvalidInputError."""
     names = rig_bench.recipe_names()
@@ -87,23 +87,6 @@ def _test(
         hint = yaml.suggestion(recipe, names)
         raise runs.InvalidInputError(f"no bench recipe {recipe!r}; {hint}")
     return rig_bench.load_bench(rig_bench.recipe_path(recipe), overrides, None, trusted_folders())
-
-
-def _run(test: rig_bench.BenchTest) -> recording.Recording:
-    try:
-        return rig_bench.run_test(test)
-    except identification.UnsuitableRecordError as error:
-        raise runs.InvalidInputError(f"{error}") from error
-    except FileNotFoundError as error:
-        raise runs.InvalidInputError(f"{error.filename}: no such file") from error
-
-
-def _writer(target: Path) -> Callable[[recording.Recording, Path], object]:
-    """Return the function that writes a recording to a file of this name. Raises InvalidInputError."""
-    if target.suffix.lower() not in _FORMATS:
-        raise runs.InvalidInputError(f"{target}: write a .parquet or a .csv file")
-    files.require_place(target)
-    return formats.writer_of(_FORMATS[target.suffix.lower()])
 
 
 def _summary(samples: recording.Recording) -> str:

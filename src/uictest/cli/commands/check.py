@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from uictest import report, runs
@@ -22,18 +22,16 @@ def check(
     strict: StrictCheck = False,
 ) -> ExitCode:
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
-    places = runs.scenario_paths(paths)
-    scenarios = [path for path in places if not (runs.is_sweep(path) or runs.is_series(path))]
+    named = runs.scenario_paths(paths)
+    scenarios = [path for path in named if not (runs.is_sweep(path) or runs.is_series(path))]
     errors, counts, checked = _scenarios(scenarios, trusted or ())
-    sweep_paths, series_paths = list(runs.sweep_files(places)), list(runs.series_files(places))
-    for path, load in [
-        *((each, _load_sweep) for each in sweep_paths),
-        *((each, _load_series) for each in series_paths),
-    ]:
-        if path not in places and not scenario.Roots.of(places, trusted or ()).contain(path):
+    sweep_paths, series_paths = list(runs.sweep_files(named)), list(runs.series_files(named))
+    for path in (*sweep_paths, *series_paths):
+        if path not in named and not scenario.Roots.of(named, trusted or ()).contain(path):
             errors.append(scenario.link_outside(path))
             continue
         with yaml.collecting(errors, yaml.whole_file(path)):
+            load = _load_sweep if path in sweep_paths else _load_series
             checked += load(path, trusted or ())
     implausible = runs.implausible_trains(checked)
     errors += implausible if strict else ()
@@ -41,7 +39,7 @@ def check(
     if errors:
         _show(errors, shown)
         message(f"uictest: {report.counted(len(errors), 'error')}")
-        return ExitCode.ERROR if any(each.trace for each in errors) else ExitCode.USAGE
+        return ExitCode.ERROR if any(error.trace for error in errors) else ExitCode.USAGE
     if shown is Format.JSON:
         data("[]")
     sweeping = report.counted(len(sweep_paths), "sweep") if sweep_paths else ""
@@ -65,39 +63,33 @@ def _scenarios(
     return [], counts if files else "", cases
 
 
-def _misfits(case: scenario.Case) -> Iterator[yaml.Diagnostic]:
-    """Yield why the stop of a case is invalid before it is run: its compensation is for another rig."""
-    for each in scenario.misfits(case.scenario):
-        yield yaml.diagnose(_place(case, each.key), each.sentence, each.key, scenario.FIT_HINT)
+def _require_fit(cases: Sequence[scenario.Case]) -> None:
+    """Raise ScenarioErrors for what is valid by itself and could not be run as it is meant.
+
+    A validation that cannot be read, or a compensation that is for another rig.
+    """
+    unreadable: dict[str, str] = {}
+    for path in {case.scenario.validated for case in cases} - {None}:
+        try:
+            runs.read_reference(Path(str(path)))
+        except runs.InvalidInputError as error:
+            unreadable[str(path)] = "; ".join(error.messages)
+    problems = [
+        yaml.diagnose(_place(case, "validated"), reason, "validated")
+        for case in cases
+        if (reason := unreadable.get(case.scenario.validated or ""))
+    ]
+    for case in cases:
+        for misfit in scenario.misfits(case.scenario):
+            place = _place(case, misfit.key)
+            problems.append(yaml.diagnose(place, misfit.sentence, misfit.key, scenario.FIT_HINT))
+    if problems:
+        raise yaml.ScenarioErrors(tuple(dict.fromkeys(problems)))
 
 
-def _place(case: scenario.Case, key: str) -> yaml.Place:
+def _place(case: scenario.Case, key: str) -> yaml.Location:
     """Return where the file of a case, or one that it refers to, sets a key; else the whole file."""
     return runs.place_of_key(case.path, key) or yaml.whole_file(case.path)
-
-
-def _reference_problem(path: str) -> str:
-    """Return why a run could not read the validation that scenarios name; empty where it can."""
-    try:
-        runs.read_reference(Path(path))
-    except runs.InvalidInputError as error:
-        return "; ".join(error.messages)
-    return ""
-
-
-def _require_fit(cases: Iterable[scenario.Case]) -> None:
-    """Raise ScenarioErrors for what is valid by itself and could not be run as it is meant."""
-    every = list(cases)
-    validated = {case.scenario.validated for case in every}
-    problems = {path: _reference_problem(path) for path in validated if path is not None}
-    unreadable = (
-        yaml.diagnose(_place(case, "validated"), problem, "validated")
-        for case in every
-        if (problem := problems.get(case.scenario.validated or ""))
-    )
-    misfits = (each for case in every for each in _misfits(case))
-    if unfit := tuple(dict.fromkeys((*unreadable, *misfits))):
-        raise yaml.ScenarioErrors(unfit)
 
 
 def _load_series(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
@@ -109,20 +101,21 @@ def _load_series(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
 def _load_sweep(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
     plan = sweeps.load_sweep(path, trusted=trusted)
     _require_fit([plan.base])
-    for each in sweeps.drawn_ranges(plan):
-        if not each.contains_nominal:
-            message(f"{plan.file}: warning: {each}; sensitivities hold for the range only")
+    for drawn in sweeps.drawn_ranges(plan):
+        if not drawn.contains_nominal:
+            message(f"{plan.file}: warning: {drawn}; sensitivities hold for the range only")
     return [plan.base]
 
 
 def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
     if shown is Format.JSON:
-        data(json.dumps([{name: getattr(each, name) for name in _FIELDS} for each in diagnostics], indent=2))
+        errors = [{name: getattr(error, name) for name in _FIELDS} for error in diagnostics]
+        data(json.dumps(errors, indent=2))
         return
-    for each in diagnostics:
+    for error in diagnostics:
         if shown is Format.GITHUB:
-            title = each.key or "scenario"
-            data(report.annotation(str(each.file), title, each.message, each.line, each.column))
-        if each.trace:
-            message(each.trace)
-        message(str(each))
+            title = error.key or "scenario"
+            data(report.annotation(str(error.file), title, error.message, error.line, error.column))
+        if error.trace:
+            message(error.trace)
+        message(str(error))

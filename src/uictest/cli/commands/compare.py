@@ -40,8 +40,7 @@ def compare(
         ),
     ] = None,
     page: Annotated[
-        Path | None,
-        option("--html FILE", "Also write a page, with overlay plots of A and B."),
+        Path | None, option("--html FILE", "Also write a page, with overlay plots of A and B.")
     ] = None,
     shown: ListFormat = PlainFormat.TEXT,
     verbose: Verbose = False,
@@ -51,8 +50,11 @@ def compare(
     With --over, compare the variants of one run, stop by stop under the same noise.
     """
     if over:
-        _require_one_run(second, tolerance, channels)
-        return compare_variants(first, over, shown, page)
+        if second is not None:
+            raise typer.BadParameter("compares the variants of one run; leave B out", param_hint="--over")
+        if tolerance or channels:
+            raise typer.BadParameter("goes with neither --tolerance nor --channel", param_hint="--over")
+        return _compare_variants(first, over, shown, page)
     if second is None:
         raise typer.BadParameter("give a second run or recording, or --over KEY", param_hint="B")
     if channels and page is None:
@@ -72,28 +74,23 @@ def compare(
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 
-def _require_one_run(second: Path | None, *others: Sequence[str] | None) -> None:
-    if second is not None:
-        raise typer.BadParameter("compares the variants of one run; leave B out", param_hint="--over")
-    if any(others):
-        raise typer.BadParameter("goes with neither --tolerance nor --channel", param_hint="--over")
-
-
 def _compared(
     first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
 ) -> comparison.Comparison:
     """Compare two runs or two recordings; `channels` are patterns to draw, None where there is no page."""
-    places = [runs.run_folder(place) for place in (first, second)]
-    if any(place.is_dir() for place in places):
-        return _runs(places[0], places[1], tolerances, channels)
-    one, other = runs.each_file(places, runs.read_recording)
+    paths = [runs.run_folder(path) for path in (first, second)]
+    if any(path.is_dir() for path in paths):
+        return _compared_runs(paths[0], paths[1], tolerances, channels)
+    one, other = runs.each_file(paths, runs.read_recording)
+    same = first.name == second.name
+    names = (str(first), str(second)) if same else (first.name, second.name)
     try:
-        return comparison.compare_recordings(one, other, _names(first, second), tolerances, channels or ())
+        return comparison.compare_recordings(one, other, names, tolerances, channels or ())
     except ValueError as error:
         raise runs.InvalidInputError(f"--channel: {error}") from error
 
 
-def _runs(
+def _compared_runs(
     first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
 ) -> comparison.Comparison:
     """Compare two runs, and draw the stops that both have recorded and that differ."""
@@ -108,16 +105,15 @@ def _runs(
         raise runs.InvalidInputError(f"cannot compare as runs: {error}") from error
 
 
-def _names(first: Path, second: Path) -> tuple[str, str]:
-    """Return the names of two files, or their paths if the names are the same."""
-    if first.name != second.name:
-        return first.name, second.name
-    return str(first), str(second)
-
-
-def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page: Path | None) -> ExitCode:
+def _compare_variants(first: Path, keys: Sequence[str], shown: PlainFormat, page: Path | None) -> ExitCode:
     """Print the paired differences of the variants of a run. Exit 5 where no stops pair."""
-    run = _run(runs.run_folder(place))
+    folder = runs.run_folder(first)
+    if reason := runs.why_no_run(folder):
+        raise runs.InvalidInputError(f"{reason}; --over takes the folder of a run")
+    try:
+        run = report.read_run(folder)
+    except (OSError, ValueError) as error:
+        raise runs.InvalidInputError(f"cannot compare its variants: {error}") from error
     try:
         compared = comparison.compare_variants(run, keys)
     except ValueError as error:
@@ -129,16 +125,7 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
             data(line)
     if page is not None:
         files.write_to(page, comparison.variants_html(run.name, compared))
-    groups = sum(len(each.groups) for each in compared)
+    groups = sum(len(variant.groups) for variant in compared)
     counts = report.counted(groups, "group of stops", "groups of stops")
     message(f"uictest: {counts} of {report.counted(len(compared) + 1, 'variant')} paired")
     return ExitCode.MET if groups else ExitCode.NOTHING_SELECTED
-
-
-def _run(folder: Path) -> report.RunContent:
-    if reason := runs.why_no_run(folder):
-        raise runs.InvalidInputError(f"{reason}; --over takes the folder of a run")
-    try:
-        return report.read_run(folder)
-    except (OSError, ValueError) as error:
-        raise runs.InvalidInputError(f"cannot compare its variants: {error}") from error

@@ -25,10 +25,7 @@ Reference = Annotated[
     str,
     argument("FILE", "Part or scenario (.yaml), program (.py, .so, .dll, .fmu), tcp://HOST:PORT, or a name."),
 ]
-ClassName = Annotated[
-    str,
-    option("--class NAME", "Class of a Python file [default: the one with a step]."),
-]
+ClassName = Annotated[str, option("--class NAME", "Class of a Python file [default: the one with a step].")]
 Settings = Annotated[
     list[str] | None,
     option("--set NAME=VALUE", "Set a parameter of a controller from outside. May be repeated."),
@@ -53,8 +50,7 @@ def check(
     trusted: options.Trusted = None,
     junit: options.JUnitFile = None,
     page: Annotated[
-        Path | None,
-        option("--html FILE", "Also write a page, with plots of the situations it misses."),
+        Path | None, option("--html FILE", "Also write a page, with plots of the situations it misses.")
     ] = None,
     shown: options.ListFormat = options.PlainFormat.TEXT,
 ) -> ExitCode:

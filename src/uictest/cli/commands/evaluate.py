@@ -30,8 +30,7 @@ NewMap = Annotated[
     ),
 ]
 ScenarioFile = Annotated[
-    Path | None,
-    option("--scenario FILE", "Scenario with the test conditions and the criteria."),
+    Path | None, option("--scenario FILE", "Scenario with the test conditions and the criteria.")
 ]
 
 
@@ -72,7 +71,7 @@ def evaluate(
             return _write_map(files, mapped, new_map)
         if listing:
             return _list(files, mapped)
-        case_of = _case_of_stop(scenario, expression, overrides or (), trusted)
+        case_of = recordings.case_of_stop(scenario, expression, overrides or (), trusted)
         stops = runs.stops_in_recordings(files, mapped, inputs, case_of)
     request = campaign.RecordingRequest(recorded.value)
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict)
@@ -85,24 +84,6 @@ def evaluate(
     code = of_run(published)
     keep_newest(code, keep, published.place, "evaluate", named)
     return code
-
-
-def _case_of_stop(
-    scenario: Path | None,
-    expression: str | None,
-    statements: Sequence[str],
-    trusted: Sequence[Path] | None,
-) -> runs.CaseOfStop:
-    """Return the function that makes the case of a recording. Raises InvalidInputError."""
-    case = None if scenario is None else recordings.one_case(scenario, expression, statements, trusted)
-    if case is not None and case.scenario.repeat > 1:
-        message(f"note: {case.id}: `repeat` plays no part: a recording is one stop")
-    return runs.case_of_stop(
-        case,
-        statements,
-        trusted,
-        lambda keys: f"--scenario FILE, or with {' '.join(f'--set {key}=...' for key in keys)}",
-    )
 
 
 def _write_preparation(files: Sequence[runs.RecordedFile]) -> None:

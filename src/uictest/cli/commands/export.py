@@ -17,7 +17,9 @@ from uictest.cli.recordings import Files
 from uictest.core import files as file_system, recording
 from uictest.core.recording import formats as file_formats
 
-_BY_SUFFIX: Final = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
+_BY_SUFFIX: Final = {
+    file_format.suffix.removeprefix("."): name for name, file_format in file_formats.FORMATS.items()
+}
 """Suffix of its files -> format; engineers say MF4 for MDF 4."""
 
 
@@ -32,15 +34,19 @@ def export(
         ),
     ] = None,
     output: Annotated[
-        Path,
-        option("-o --output DIR|FILE", "Folder for the files, or a file whose suffix is a format."),
+        Path, option("-o --output DIR|FILE", "Folder for the files, or a file whose suffix is a format.")
     ] = Path(),
     force: Annotated[bool, option("--force", "Overwrite existing files.")] = False,
 ) -> ExitCode:
     """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Prints the names of the files."""
+
+    def read(path: Path) -> recording.Recording:
+        about = {"program": f"uictest {__version__}", "source": path.name}
+        return recording.recording_of(file_formats.read_contents(path), about)
+
     targets = _targets(files, formats or [], output)
     _reject_overwriting(list(targets.values()), force=force)
-    recordings = dict(zip(files, runs.each_file(files, _recording), strict=True))
+    recordings = dict(zip(files, runs.each_file(files, read), strict=True))
     for (path, name), target in targets.items():
         encode = partial(file_formats.encoded, recordings[path], name)
         [content] = runs.each_file([path], lambda _, encode=encode: encode())  # type: ignore[misc]
@@ -58,7 +64,7 @@ def _targets(files: Sequence[Path], formats: Sequence[str], output: Path) -> dic
             raise typer.BadParameter(reason, param_hint="-o")
         return {(files[0], of_suffix): output}
     if not names:
-        suffixes = ", ".join(each.suffix for each in file_formats.FORMATS.values())
+        suffixes = ", ".join(file_format.suffix for file_format in file_formats.FORMATS.values())
         reason = f"no format: name formats, or a file with a suffix ({suffixes}) with -o"
         raise typer.BadParameter(reason, param_hint="--to")
     return {
@@ -86,9 +92,3 @@ def _reject_overwriting(targets: Sequence[Path], *, force: bool) -> None:
     there = [str(target) for target in targets if os.path.lexists(target)]
     if there and not force:
         raise runs.InvalidInputError(f"already there: {', '.join(there)}; --force replaces them")
-
-
-def _recording(path: Path) -> recording.Recording:
-    return recording.recording_of(
-        file_formats.read_contents(path), {"program": f"uictest {__version__}", "source": path.name}
-    )

@@ -25,13 +25,9 @@ _RECORD_EVERY = 0.01
 """s"""
 
 RecordedStopFile = Annotated[Path, argument("FILE", "Recording of the stop.", show_default=False)]
-ScenarioFile = Annotated[
-    Path,
-    option("--scenario FILE", "Scenario to start from: vehicle, brake, rail."),
-]
+ScenarioFile = Annotated[Path, option("--scenario FILE", "Scenario to start from: vehicle, brake, rail.")]
 Breaks = Annotated[
-    list[str] | None,
-    option("--break PLACE", "Where the friction changes, e.g. '100 m'. May be repeated."),
+    list[str] | None, option("--break PLACE", "Where the friction changes, e.g. '100 m'. May be repeated.")
 ]
 WithPads = Annotated[bool, option("--pads", "Also fit the friction of the brake pads.")]
 Output = Annotated[Path, option("-o --output DIR", "Folder for fits; each fit gets a folder in it.")]
@@ -69,8 +65,13 @@ def fit(
     mapped, _ = recordings.channel_map(map_name, trusted, trigger)
     case = recordings.one_case(scenario, expression, overrides or (), trusted)
     [stop] = runs.each_file([file], lambda path: runs.read_stop(path, mapped))
-    result = _fit(file, stop, case, _places(breaks or ()), with_pads=with_pads)
-    data("\n".join(_lines(result)))
+    positions = _positions(breaks or ())
+    try:
+        result = fitting.fit_stop(stop, case.scenario, positions, with_pads=with_pads)
+    except fitting.FitError as error:
+        raise runs.InvalidInputError(f"{file}: {error}") from error
+    residual = f"residual {result.residual:.4f} of the wheel load; {fitting.COVERED}"
+    data("\n".join([*map(str, result.estimates), residual, *filter(None, [result.remark])]))
     fitted = _FittedStop(stop, case, scenario, overrides or (), trusted, result)
     folder = _publish(fitted, context.obj, output)
     for defect in stop.defects:
@@ -79,33 +80,15 @@ def fit(
     return ExitCode.MET if result.determined else ExitCode.MISSED
 
 
-def _fit(
-    file: Path,
-    stop: field_data.RecordedStop,
-    case: scenarios.Case,
-    places: Sequence[float],
-    *,
-    with_pads: bool,
-) -> fitting.Fit:
+def _positions(texts: Sequence[str]) -> list[float]:
+    """Return the positions along the track at which the friction changes, m."""
     try:
-        return fitting.fit_stop(stop, case.scenario, places, with_pads=with_pads)
-    except fitting.FitError as error:
-        raise runs.InvalidInputError(f"{file}: {error}") from error
-
-
-def _places(texts: Sequence[str]) -> list[float]:
-    try:
-        places = [float(yaml.parse_quantity(text, "length")) for text in texts]
+        positions = [float(yaml.parse_quantity(text, "length")) for text in texts]
     except yaml.QuantityError as error:
         raise typer.BadParameter(f"{error}; {error.hint}", param_hint="--break") from error
-    if sorted(set(places)) != places:
+    if sorted(set(positions)) != positions:
         raise typer.BadParameter("places must come in rising order", param_hint="--break")
-    return places
-
-
-def _lines(fit: fitting.Fit) -> list[str]:
-    left = f"residual {fit.residual:.4f} of the wheel load; {fitting.COVERED}"
-    return [*map(str, fit.estimates), left, *filter(None, [fit.remark])]
+    return positions
 
 
 def _publish(fitted: _FittedStop, arguments: Sequence[str], output: Path) -> Path:
@@ -113,7 +96,12 @@ def _publish(fitted: _FittedStop, arguments: Sequence[str], output: Path) -> Pat
     manifest = report.run_manifest(arguments, None, fitted.case.inputs, 1)
     with files.RunFolder(output, f"fit-{report.run_name(datetime.now(UTC), manifest)}") as folder:
         scenario = _write_scenario(fitted, folder.path)
-        simulated = _simulated(scenario, [fitted.path.parent, *fitted.trusted])
+        [case] = runs.load_cases([scenario], None, None, [fitted.path.parent, *fitted.trusted])
+        try:
+            simulated = rig.simulate(case, record_every=_RECORD_EVERY)
+        except controllers.ControllerError as error:
+            reason = f"the fitted scenario cannot be simulated: {error}"
+            raise runs.InvalidInputError(reason) from error
         both = fitting.overlay(fitted.stop, simulated)
         files.write(folder.path, "overlay.csv", formats.encoded(both, "csv"))
         files.write(folder.path, "overlay.svg", report.overlay_svg(both))
@@ -127,18 +115,12 @@ def _publish(fitted: _FittedStop, arguments: Sequence[str], output: Path) -> Pat
 def _write_scenario(fitted: _FittedStop, folder: Path) -> Path:
     """Write the scenario with the fitted friction, and return its path."""
     path = folder / f"{fitted.case.scenario.name}-fitted.yaml"
-    statements = {key.strip(): text for key, _, text in (each.partition("=") for each in fitted.overrides)}
+    statements = {
+        key.strip(): text for key, _, text in (statement.partition("=") for statement in fitted.overrides)
+    }
     try:
         text = fitting.fitted_yaml(fitted.case, statements, fitted.fit, fitted.path, folder)
     except ValueError as error:
         raise runs.InvalidInputError(f"{error}") from error
     files.write(folder, path.name, text)
     return path
-
-
-def _simulated(scenario: Path, trusted: Sequence[Path]) -> rig.SimulatedStop:
-    [case] = runs.load_cases([scenario], None, None, trusted)
-    try:
-        return rig.simulate(case, record_every=_RECORD_EVERY)
-    except controllers.ControllerError as error:
-        raise runs.InvalidInputError(f"the fitted scenario cannot be simulated: {error}") from error

@@ -2,54 +2,73 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Annotated
 
 import typer
 
-from uictest import runs
+from uictest import __version__, runs
 from uictest.cli.entry import command
-from uictest.cli.identify_options import (
-    ActingTime,
-    Base,
-    CommandChannel,
-    CylinderChannel,
-    ForceChannel,
-    HeldOut,
-    Intervals,
-    LineChannel,
-    Name,
-    Output,
-    PressureChannel,
-    Recording,
-    RigOverrides,
-    TankChannel,
-    TransitionTime,
-    interval,
-)
-from uictest.cli.options import trusted_folders
+from uictest.cli.options import argument, option, trusted_folders
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.recordings import rig_of_record
 from uictest.core import files
-from uictest.plans import library, scenario
+from uictest.plans import library
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.rig import bench, identification
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 identify = typer.Typer(
     rich_markup_mode=None,
     help="Identify hysteresis, cylinder dynamics or the air of the module from a recording.",
 )
+
+Recording = Annotated[Path, argument("RECORDING", "Parquet, CSV or another measurement file.")]
+Output = Annotated[Path | None, option("-o --output FILE", "Compensation file to write [default: none].")]
+Base = Annotated[str, option("--base NAME|FILE", "Compensation whose other numbers are kept.")]
+Name = Annotated[
+    str,
+    option(
+        "--name NAME",
+        "Name of the compensation in FILE [default: from the file name of RECORDING].",
+        show_default=False,
+    ),
+]
+HeldOut = Annotated[
+    float, option("--held-out", "Share of the record held out from the fit.", min=0.05, max=0.5)
+]
+PressureChannel = Annotated[str, option("--pressure CHANNEL", "Channel of the brake cylinder pressure.")]
+ForceChannel = Annotated[str, option("--force CHANNEL", "Channel of the clamping force.")]
+CommandChannel = Annotated[
+    str, option("--command CHANNEL", "Channel of the valve command (0 fill, 1 hold, 2 vent).")
+]
+Intervals = Annotated[
+    list[str] | None,
+    option("--wsp FROM..TO", "Time in s in which the WSP acts, instead of --command. May be repeated."),
+]
+ActingTime = Annotated[
+    float, option("--acting-time", "Filling time in s after which the WSP no longer acts.", min=0.0, max=60.0)
+]
+TransitionTime = Annotated[
+    float, option("--transition-time", "Time in s from one pair of lines to the other.", min=0.0, max=10.0)
+]
+TankChannel = Annotated[str, option("--input CHANNEL", "Channel of the tank pressure.")]
+CylinderChannel = Annotated[
+    str, option("--output-channel CHANNEL", "Channel of the brake cylinder pressure.")
+]
+LineChannel = Annotated[str, option("--line CHANNEL", "Channel of the brake line's pressure.")]
+RigOverrides = Annotated[
+    list[str] | None, option("--set KEY=VALUE", "Set a key of the rig of the record. May be repeated.")
+]
+
 
 _OPTIONS = {
     "input": "--input",
@@ -78,13 +97,21 @@ def hysteresis(
     held_out: HeldOut = 0.25,
 ) -> ExitCode:
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
-    base_part = _base(base)
+    base_part = identification.load_compensation(base, trusted_folders())
     part_name = "" if output is None else _name(name, record)
-    acting_intervals = [interval(text) for text in intervals or ()]
+    acting_intervals = [_interval(text) for text in intervals or ()]
     roles = {"pressure": pressure, "force": force} | ({} if acting_intervals else {"command": command})
     recorded = _record(record, roles)
-    acting = _wsp_acting(recorded, acting_intervals, acting_time)
-    result = _hysteresis(record, recorded, acting, transition_time, held_out)
+    channels = recorded.channels
+    if acting_intervals:
+        acting = identification.wsp_acting_in_intervals(channels["time"], acting_intervals)
+    else:
+        acting = identification.wsp_acting_from_commands(channels["time"], channels["command"], acting_time)
+    with _naming(record):
+        result = identification.identify_hysteresis(
+            channels["time"], channels["pressure"], channels["force"], acting, transition_time, held_out
+        )
+        identification.require_force_fit(result)
     data(identification.hysteresis_text(result))
     _warn(result.largest_error)
     if output is not None:
@@ -108,10 +135,15 @@ def cylinder(
     held_out: HeldOut = 0.25,
 ) -> ExitCode:
     """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
-    base_part = _base(base)
+    base_part = identification.load_compensation(base, trusted_folders())
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
-    result = _cylinder(record, recorded, held_out)
+    channels = recorded.channels
+    with _naming(record):
+        result = identification.identify_cylinder(
+            channels["time"], channels["input"], channels["output"], held_out
+        )
+        identification.require_fit(result)
     data(identification.cylinder_text(result))
     _warn(result.largest_after)
     if output is not None:
@@ -135,12 +167,23 @@ def air(
     held_out: HeldOut = 0.25,
 ) -> ExitCode:
     """Identify the air of the caliper's module, which the setting `thermal` follows beside a tank."""
-    base_part = _base(base)
+    base_part = identification.load_compensation(base, trusted_folders())
     part_name = "" if output is None else _name(name, record)
     roles = {"input": tank, "output": cylinder, "line": line, "command": command}
     recorded = _record(record, roles)
     case = rig_of_record(record, recorded.rig, overrides or (), trusted_folders())
-    result = _air(record, recorded, case, held_out)
+    by_name = {"time": recorded.channels["time"]}
+    by_name |= {
+        name: recorded.channels[role]
+        for name, role in (
+            ("tank", "input"),
+            ("cylinder", "output"),
+            ("line", "line"),
+            ("command", "command"),
+        )
+    }
+    with _naming(record):
+        result = bench.identify_air(by_name, case, held_out)
     data(identification.air_text(result))
     _warn(result.largest_after)
     if output is not None:
@@ -149,70 +192,30 @@ def air(
     return ExitCode.MET
 
 
+def _interval(text: str) -> tuple[float, float]:
+    """Return first and last time in s of a `--wsp` option. Raises InvalidInputError."""
+    first, dots, last = text.partition("..")
+    try:
+        begin, end = float(first), float(last)
+    except ValueError:
+        begin, end = 1.0, 0.0
+    if not dots or not -math.inf < begin < end < math.inf:
+        raise runs.InvalidInputError(f"--wsp {text!r}: write the first and the last time in s, such as 4..12")
+    return begin, end
+
+
 def _warn(largest_error: float) -> None:
     if warning := identification.distrust(largest_error):
         message(f"uictest: {warning}")
 
 
-def _air(
-    record: Path, recorded: identification.RecordedChannels, case: scenario.Case, held_out: float
-) -> identification.AirResult:
-    channels = recorded.channels
-    by_name = {
-        "time": channels["time"],
-        "tank": channels["input"],
-        "cylinder": channels["output"],
-        "line": channels["line"],
-        "command": channels["command"],
-    }
+@contextmanager
+def _naming(record: Path) -> Iterator[None]:
+    """Let a record that supports nothing be an InvalidInputError that names its file."""
     try:
-        return bench.identify_air(by_name, case, held_out)
+        yield
     except identification.UnsuitableRecordError as error:
         raise runs.InvalidInputError(f"{record}: {error}") from error
-
-
-def _wsp_acting(
-    recorded: identification.RecordedChannels, intervals: Sequence[tuple[float, float]], acting_time: float
-) -> NDArray[np.bool_]:
-    """Return for every sample whether the WSP acts: in the intervals, or else by the valve commands."""
-    channels = recorded.channels
-    if intervals:
-        return identification.wsp_acting_in_intervals(channels["time"], intervals)
-    return identification.wsp_acting_from_commands(channels["time"], channels["command"], acting_time)
-
-
-def _hysteresis(
-    record: Path,
-    recorded: identification.RecordedChannels,
-    acting: NDArray[np.bool_],
-    transition_time: float,
-    held_out: float,
-) -> identification.HysteresisResult:
-    channels = recorded.channels
-    try:
-        result = identification.identify_hysteresis(
-            channels["time"], channels["pressure"], channels["force"], acting, transition_time, held_out
-        )
-        identification.require_force_fit(result)
-    except identification.UnsuitableRecordError as error:
-        raise runs.InvalidInputError(f"{record}: {error}") from error
-    return result
-
-
-def _cylinder(
-    record: Path,
-    recorded: identification.RecordedChannels,
-    held_out: float,
-) -> identification.CylinderResult:
-    channels = recorded.channels
-    try:
-        result = identification.identify_cylinder(
-            channels["time"], channels["input"], channels["output"], held_out
-        )
-        identification.require_fit(result)
-    except identification.UnsuitableRecordError as error:
-        raise runs.InvalidInputError(f"{record}: {error}") from error
-    return result
 
 
 def _record(record: Path, names: dict[str, str]) -> identification.RecordedChannels:
@@ -222,21 +225,12 @@ def _record(record: Path, names: dict[str, str]) -> identification.RecordedChann
             raise runs.InvalidInputError(
                 f"{_OPTIONS[role]} and {_OPTIONS[other]} both name {name!r}: name two channels"
             )
-    try:
-        return identification.read_record(_existing(record), names)
-    except identification.UnsuitableRecordError as error:
-        raise runs.InvalidInputError(f"{error}") from error
-
-
-def _existing(record: Path) -> Path:
     if not record.is_file():
         raise runs.InvalidInputError(f"{record}: {'not a file' if record.exists() else 'no such file'}")
-    return record
-
-
-def _base(reference: str) -> scenario.Compensation:
-    """Return the compensation, of the library or in a file, whose other numbers are kept."""
-    return identification.load_compensation(reference, trusted_folders())
+    try:
+        return identification.read_record(record, names)
+    except identification.UnsuitableRecordError as error:
+        raise runs.InvalidInputError(f"{error}") from error
 
 
 def _name(name: str, record: Path) -> str:
@@ -254,8 +248,12 @@ def _name(name: str, record: Path) -> str:
 def _provenance(
     context: typer.Context, record: Path, recorded: identification.RecordedChannels
 ) -> identification.Provenance:
-    from uictest import __version__
-
+    # Without a stated time the same record gives the same file.
+    text = os.environ.get("SOURCE_DATE_EPOCH", "")
+    try:
+        date = f"{datetime.fromtimestamp(int(text), UTC):%Y-%m-%d}" if text else ""
+    except (ValueError, OverflowError, OSError) as error:
+        raise runs.InvalidInputError(f"SOURCE_DATE_EPOCH={text!r}: write seconds since 1970") from error
     return identification.Provenance(
         record=record.name,
         digest=field_data.digest_of(record),
@@ -263,18 +261,9 @@ def _provenance(
         origin=recorded.origin,
         command=shlex.join(["uictest", *context.obj]),
         version=__version__,
-        date=_date(),
+        date=date,
         rig=recorded.rig,
     )
-
-
-def _date() -> str:
-    """Return the day of SOURCE_DATE_EPOCH, empty without it: then the same record gives the same file."""
-    text = os.environ.get("SOURCE_DATE_EPOCH", "")
-    try:
-        return f"{datetime.fromtimestamp(int(text), UTC):%Y-%m-%d}" if text else ""
-    except (ValueError, OverflowError, OSError) as error:
-        raise runs.InvalidInputError(f"SOURCE_DATE_EPOCH={text!r}: write seconds since 1970") from error
 
 
 def _write(output: Path, record: Path, text: str) -> None:

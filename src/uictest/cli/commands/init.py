@@ -38,8 +38,6 @@ rig:
 criteria: uictest-stop
 expect: pass
 """
-
-
 CONTROLLER = "controller"
 """What to write instead of a first scenario."""
 
@@ -51,8 +49,7 @@ What = Annotated[
     ),
 ]
 PythonFolder = Annotated[
-    Path | None,
-    option("--python DIR", "Write a first WSP controller in Python to DIR."),
+    Path | None, option("--python DIR", "Write a first WSP controller in Python to DIR.")
 ]
 Shipped = Annotated[
     bool, option("--scenarios", "Copy the scenarios, sweeps and series that ship with uictest.")
@@ -61,10 +58,7 @@ CFolder = Annotated[Path | None, option("--c DIR", "Write a first WSP controller
 
 
 def init(
-    what: What = Path(),
-    python: PythonFolder = None,
-    c: CFolder = None,
-    shipped: Shipped = False,
+    what: What = Path(), python: PythonFolder = None, c: CFolder = None, shipped: Shipped = False
 ) -> ExitCode:
     """Write a first scenario, and the schema with which editors complete it.
 
@@ -73,28 +67,26 @@ def init(
     With --scenarios, copies of those that ship stand in place of it. With the word controller: write a first
     WSP controller, its part and a scenario that runs it.
     """
-    if what != Path(CONTROLLER):
-        if python is not None or c is not None:
-            raise typer.BadParameter("write `uictest init controller` with --python or --c")
+    if what == Path(CONTROLLER):
         if shipped:
-            paths = library.scenarios().values()
-            copies = {what / "scenarios" / path.name: path.read_text("utf-8") for path in paths}
-            schemas = schemas_below(what / "schema", SchemaKind.SCENARIO, SchemaKind.SERIES)
-            _write_new(copies, schemas)
-            message(f"Run them with 'uictest run {report.argument(str(what / 'scenarios'))}'.")
-            return ExitCode.MET
-        schemas = schemas_below(what / "schema", SchemaKind.SCENARIO)
-        _write_new({what / SCENARIO: _FIRST_STOP}, schemas)
-        message(f"Run it with 'uictest run {report.argument(str(what / SCENARIO))}'.")
+            raise typer.BadParameter("write `uictest init --scenarios` without the word controller")
+        if python is not None and c is None:
+            _write_controller(python, "python")
+        elif c is not None and python is None:
+            _write_controller(c, "c", f"make -C {report.argument(str(c))}")
+        else:
+            raise typer.BadParameter("write `uictest init controller` with either --python DIR or --c DIR")
         return ExitCode.MET
+    if python is not None or c is not None:
+        raise typer.BadParameter("write `uictest init controller` with --python or --c")
     if shipped:
-        raise typer.BadParameter("write `uictest init --scenarios` without the word controller")
-    if python is not None and c is None:
-        _write_controller(python, "python")
-    elif c is not None and python is None:
-        _write_controller(c, "c", f"make -C {report.argument(str(c))}")
+        paths = library.scenarios().values()
+        copies = {what / "scenarios" / path.name: path.read_text("utf-8") for path in paths}
+        _write_new(copies, schemas_below(what / "schema", SchemaKind.SCENARIO, SchemaKind.SERIES))
+        message(f"Run them with 'uictest run {report.argument(str(what / 'scenarios'))}'.")
     else:
-        raise typer.BadParameter("write `uictest init controller` with either --python DIR or --c DIR")
+        _write_new({what / SCENARIO: _FIRST_STOP}, schemas_below(what / "schema", SchemaKind.SCENARIO))
+        message(f"Run it with 'uictest run {report.argument(str(what / SCENARIO))}'.")
     return ExitCode.MET
 
 
@@ -103,7 +95,7 @@ def _write_controller(folder: Path, language: templates.Language, *build: str) -
     _write_new({folder / name: text for name, text in templates.controller_files(language).items()})
     part, stop = (report.argument(str(folder / name)) for name in ("my-wsp.yaml", "slip-120.yaml"))
     check, run = f"uictest controller check {part}", f"uictest run {stop}"
-    message("\n".join(["Next:", *(f"    {each}" for each in (*build, check, run))]))
+    message("\n".join(["Next:", *(f"    {command}" for command in (*build, check, run))]))
 
 
 def _write_new(texts: Mapping[Path, str], schemas: Mapping[Path, str] | None = None) -> None:

@@ -33,10 +33,7 @@ def list_parts() -> ExitCode:
 
 @command(library, "show")
 def show_part(
-    reference: Annotated[
-        str,
-        argument("PART", "Part of the library (vehicles/intercity-180), or its file."),
-    ],
+    reference: Annotated[str, argument("PART", "Part of the library (vehicles/intercity-180), or its file.")],
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
 
@@ -48,7 +45,10 @@ def show_part(
         _show_file(Path(reference))
         return ExitCode.MET
     if reference not in _references():
-        raise runs.InvalidInputError(f"no part {reference!r} in the library; {_hint(reference)}")
+        guess = yaml.nearest(reference, _references())
+        accepted = f"accepted: {', '.join(f'{folder}/...' for folder in _FOLDERS)}"
+        hint = f"did you mean {guess!r}?" if guess else accepted
+        raise runs.InvalidInputError(f"no part {reference!r} in the library; {hint}")
     folder, _, name = reference.partition("/")
     data(printable(f"{reference}: {_title(reference)}"))
     if folder == "channel_maps":
@@ -76,17 +76,18 @@ def _show_file(path: Path) -> None:
 
 def _show_numbers(part: yaml.Part) -> None:
     shown = list(scenario.numbers(part))
-    original = {} if part.original is None else {each.key: each for each in scenario.numbers(part.original)}
+    numbers = () if part.original is None else scenario.numbers(part.original)
+    original = {number.key: number for number in numbers}
     data(_aligned([(*_row(number), _difference(number, original, part)) for number in shown]))
     if removed := original.keys() - {number.key for number in shown}:
         data(f"removed: {', '.join(sorted(removed))}")
     used = {number.quantity.source for number in shown}
     used |= {end.source for number in shown for end in number.quantity.range or ()}
-    sources = [(name, each.text) for name, each in part.sources.items() if name in used]
+    sources = [(name, source.text) for name, source in part.sources.items() if name in used]
     cited = [
-        each
-        for each in library_files.references().items()
-        if any(text.startswith(each[0] + ":") for _, text in sources)
+        (key, publication)
+        for key, publication in library_files.references().items()
+        if any(text.startswith(f"{key}:") for _, text in sources)
     ]
     provenance = list(getattr(part, "provenance", {}).items())
     for title, rows in (("sources", sources), ("references", cited), ("provenance", provenance)):
@@ -100,16 +101,12 @@ def _row(number: scenario.SourcedNumber) -> tuple[str, ...]:
     if number.source is None:
         return (number.key, quantity.text, scenario.mark_of(quantity, {}), "", "")
     mark, name = number.source.mark, quantity.source
-    return (number.key, quantity.text, mark, "" if name == mark else name, _range(quantity))
-
-
-def _range(quantity: yaml.Quantity) -> str:
-    """Return the plausible range of a number, its prior, and the name of its source where it is another."""
-    if quantity.range is None:
-        return ""
-    low, high = quantity.range
-    source = "" if low.source == quantity.source else f" ({low.source})"
-    return f"plausible: {low.text} .. {high.text}, {quantity.prior}{source}"
+    plausible = ""
+    if quantity.range is not None:
+        low, high = quantity.range
+        source = "" if low.source == quantity.source else f" ({low.source})"
+        plausible = f"plausible: {low.text} .. {high.text}, {quantity.prior}{source}"
+    return (number.key, quantity.text, mark, "" if name == mark else name, plausible)
 
 
 def _difference(
@@ -132,7 +129,6 @@ def _channels(name: str, trusted: Sequence[Path] = ()) -> list[tuple[str, ...]]:
 def _part(folder: str, name: str, trusted: Sequence[Path] = ()) -> yaml.Part:
     if folder == "benches":
         return bench.load_bench(bench.recipe_path(name), trusted=trusted).recipe
-
     return scenario.load_part(f"{folder}/{name}")
 
 
@@ -142,12 +138,6 @@ def _title(reference: str) -> str:
 
 def _references() -> list[str]:
     return [f"{folder}/{name}" for folder in _FOLDERS for name in library_files.names(folder)]
-
-
-def _hint(reference: str) -> str:
-    guess = yaml.nearest(reference, _references())
-    accepted = ", ".join(f"{folder}/..." for folder in _FOLDERS)
-    return f"did you mean {guess!r}?" if guess else f"accepted: {accepted}"
 
 
 def _aligned(rows: Sequence[Sequence[str]]) -> str:

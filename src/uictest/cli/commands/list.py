@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
@@ -12,16 +12,8 @@ from typing import Annotated, Any, Final, Literal
 import typer
 
 from uictest import runs
-from uictest.cli import sweep_run
-from uictest.cli.cases import (
-    case_lines,
-    case_table,
-    cases_json,
-    joined_json,
-    select_by_options,
-    series_json,
-    series_lines,
-)
+from uictest.cli.cases import case_lines, case_table, select_by_options, selection_json, series_lines
+from uictest.cli.commands.sweep import selected_cases, show_ids
 from uictest.cli.options import (
     Expression,
     ListFormat,
@@ -47,8 +39,7 @@ def list_cases(
     overrides: Overrides = None,
     trusted: Trusted = None,
     requirements: Annotated[
-        bool,
-        option("--requirements", "List requirements and what verifies them instead of cases."),
+        bool, option("--requirements", "List requirements and what verifies them instead of cases.")
     ] = False,
     requirement_list: Annotated[
         Path | None,
@@ -58,8 +49,7 @@ def list_cases(
         ),
     ] = None,
     fail_uncovered: Annotated[
-        bool,
-        option("--fail-uncovered", "With --requirements: exit with 1 if one is not covered."),
+        bool, option("--fail-uncovered", "With --requirements: exit with 1 if one is not covered.")
     ] = False,
     shown: ListFormat = PlainFormat.TEXT,
     verbose: Verbose = False,
@@ -96,7 +86,7 @@ def _list_selected(
 ) -> None:
     width = terminal_width(sys.stdout)
     if shown is PlainFormat.JSON:
-        data(joined_json(cases_json(selected), series_json(of_series)))
+        data(selection_json(selected, of_series))
         return
     if described and width is not None and selected:
         data("\n".join(case_table(selected, width)))
@@ -112,9 +102,9 @@ def _list_sweeps(
     overrides: Sequence[str] | None,
     trusted: Sequence[Path] | None,
 ) -> ExitCode:
-    selections = [sweep_run.selected_cases(_plan(path, overrides, trusted), expression) for path in paths]
+    selections = [selected_cases(_plan(path, overrides, trusted), expression) for path in paths]
     for selection in selections:
-        if not sweep_run.show_ids(selection):
+        if not show_ids(selection):
             break
     if any(selection.size for selection in selections):
         return ExitCode.MET
@@ -151,14 +141,20 @@ def list_requirements(
     file = request.file
     listed = None if file is None else frozenset(scenario.read_requirement_list(file))
     coverage = campaign.requirement_coverage(cases, tuple(listed or ()), of_series)
-    rows = [(_status(each, listed), each) for each in coverage]
+    rows = [(_status(requirement, listed), requirement) for requirement in coverage]
+    width = terminal_width(sys.stdout)
     if shown is PlainFormat.JSON:
-        data(json.dumps([_form(status, each) for status, each in rows], indent=2))
-    elif rows:
-        data("\n".join(_lines(rows, terminal_width(sys.stdout))))
-    message(_tally([status for status, _ in rows]))
-    uncovered = any(status == "uncovered" for status, _ in rows)
-    return ExitCode.MISSED if request.fail_uncovered and uncovered else ExitCode.MET
+        data(json.dumps([_form(*row) for row in rows], indent=2))
+    elif rows and width is None:
+        data("\n".join("\t".join(printable(column.cell_text(row)) for column in _COLUMNS) for row in rows))
+    elif rows and width is not None:
+        data("\n".join(table_lines(Table(_COLUMNS, rows, all_in="--format json"), width)))
+    statuses = [status for status, _ in rows]
+    counts = {status: statuses.count(status) for status in ("covered", "uncovered", "unknown")}
+    tally = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
+    nothing = "no scenario, series or criterion names a requirement"
+    message(f"uictest: {counted(len(rows), 'requirement')}: {tally}" if rows else f"uictest: {nothing}")
+    return ExitCode.MISSED if request.fail_uncovered and counts["uncovered"] else ExitCode.MET
 
 
 def _status(requirement: campaign.CoveredRequirement, listed: frozenset[str] | None) -> Status:
@@ -167,18 +163,10 @@ def _status(requirement: campaign.CoveredRequirement, listed: frozenset[str] | N
     return "covered" if requirement.covered else "uncovered"
 
 
-def _lines(rows: Sequence[_Row], width: int | None) -> Iterator[str]:
-    """Yield a table for a terminal, else a line per requirement with tabs between its texts."""
-    if width is None:
-        yield from ("\t".join(printable(column.text(row)) for column in _COLUMNS) for row in rows)
-    else:
-        yield from table_lines(Table(_COLUMNS, rows, more="--format json has them"), width)
-
-
 def _verifier_text(verifier: campaign.Verifier) -> str:
     of_profile = f" of {verifier.profile}" if verifier.profile else ""
-    places = counted_in(len(verifier.cases), len(verifier.series))
-    return f"{verifier.kind} {verifier.name}{of_profile} ({places})"
+    counts = counted_in(len(verifier.cases), len(verifier.series))
+    return f"{verifier.kind} {verifier.name}{of_profile} ({counts})"
 
 
 _Row = tuple[Status, "campaign.CoveredRequirement"]
@@ -195,19 +183,13 @@ _COLUMNS: Final[tuple[Column[_Row], ...]] = (
 
 
 def _form(status: Status, requirement: campaign.CoveredRequirement) -> dict[str, Any]:
-    verifiers = [_verifier_form(each) for each in requirement.verifiers]
+    verifiers = [
+        {
+            verifier.kind: verifier.name,
+            **({"profile": verifier.profile} if verifier.profile else {}),
+            "cases": list(verifier.cases),
+            "series_ids": list(verifier.series),
+        }
+        for verifier in requirement.verifiers
+    ]
     return {"id": requirement.id, "status": status, "verified_by": verifiers}
-
-
-def _verifier_form(verifier: campaign.Verifier) -> dict[str, Any]:
-    form: dict[str, Any] = {verifier.kind: verifier.name}
-    form |= {"profile": verifier.profile} if verifier.profile else {}
-    return form | {"cases": list(verifier.cases), "series_ids": list(verifier.series)}
-
-
-def _tally(statuses: Sequence[Status]) -> str:
-    counts = {status: statuses.count(status) for status in ("covered", "uncovered", "unknown")}
-    shown = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
-    total = counted(len(statuses), "requirement")
-    nothing = "uictest: no scenario, series or criterion names a requirement"
-    return f"uictest: {total}: {shown}" if shown else nothing

@@ -66,20 +66,21 @@ def log(
     mapped, inputs = recordings.channel_map(map_name, trusted, None)
     _require_many_triggers(map_name, mapped.preparation)
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
-    stated = _case_of(scenario, expression, overrides or (), trusted)
     # What is stated wrongly is told before the log is read.
-    known = stated("log", settings.from_speed).vehicle_stated
-    selected = _selected_by(dry)
-    found, written = _stops(files, mapped, settings, folder)
+    stated = recordings.case_of_stop(scenario, expression, overrides or (), trusted)
+    vehicle_known = stated("log", settings.from_speed).vehicle_stated
+    is_dry = _selected_by(dry)
+    in_log, written = _stops(files, mapped, settings, folder)
     if not quiet:
-        _write_events(found)
-    named = {f"stop-{number:04d}": event for number, event in enumerate(found.stops, start=1)}
-    on_dry_rail = frozenset(name for name, event in named.items() if selected(name, event.file))
+        _write_events(in_log)
+    named = {f"stop-{number:04d}": event for number, event in enumerate(in_log.stops, start=1)}
+    on_dry_rail = frozenset(name for name, event in named.items() if is_dry(name, event.file))
     if dry is not None and named and not on_dry_rail:
         raise typer.BadParameter(f"{dry}: selects no stop", param_hint="--dry")
     of_dry = stated
     if on_dry_rail:
-        of_dry = _case_of(scenario, expression, (*(overrides or ()), *_ON_DRY_RAIL), trusted)
+        on_dry = (*(overrides or ()), *_ON_DRY_RAIL)
+        of_dry = recordings.case_of_stop(scenario, expression, on_dry, trusted)
 
     def case_of(name: str, speed: float) -> scenarios.Case:
         return of_dry(name, speed) if name in on_dry_rail else stated(name, speed)
@@ -89,22 +90,24 @@ def log(
         raise runs.InvalidInputError(
             f"{folder}: another log was written there: name a folder with --recordings"
         )
+    together = logged_stops.StopsTogether(named, in_log.passed_over, vehicle_known=vehicle_known)
     request = campaign.RecordingRequest("all")
-    passed_over = [_sentence(event) for event in found.passed_over]
-    together = logged_stops.StopsTogether(named, found.passed_over, vehicle_known=known)
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=together.add)
-    batch = batch._replace(passed_over=passed_over, together=together.campaign)
+    batch = batch._replace(
+        passed_over=[_sentence(event) for event in in_log.passed_over], together=together.campaign
+    )
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
-    table = together.stops_table(published.content.results)
-    file_system.write(published.place, "stops.csv", report.csv_text(*table))
     if not named:
         message(f"uictest: {together.without_stop}")
         return ExitCode.NOTHING_SELECTED
-    if shown is options.Format.TEXT and not quiet:
-        _show_together(published.content.campaign)
+    shown_together = published.content.campaign
+    if shown is options.Format.TEXT and not quiet and shown_together is not None:
+        sections: list[Table | Lines] = [Lines(shown_together.sentences), *shown_together.at("first")]
+        for line in report.titled_lines(sections, terminal_width(sys.stdout)):
+            data(line)
     return of_run(published)
 
 
@@ -117,28 +120,6 @@ def _require_many_triggers(map_name: str, preparation: field_data.Preparation) -
         )
 
 
-def _show_together(together: report.Campaign | None) -> None:
-    """Write what the stops show together to stdout: sentences, and the tables that stand first."""
-    if together is not None:
-        tables = [each.document() for each in together.at("first")]
-        sections: list[Table | Lines] = [Lines(together.sentences), *tables]
-        for line in report.titled_lines(sections, terminal_width(sys.stdout)):
-            data(line)
-
-
-def _case_of(
-    scenario: Path | None,
-    expression: str | None,
-    overrides: Sequence[str],
-    trusted: Sequence[Path] | None,
-) -> runs.CaseOfStop:
-    """Return what makes the case of a stop. Raises as :func:`runs.case_of_stop`."""
-    case = None if scenario is None else recordings.one_case(scenario, expression, overrides, trusted)
-    return runs.case_of_stop(
-        case, overrides, trusted, lambda keys: " ".join(f"--set {key}=..." for key in keys)
-    )
-
-
 def _selected_by(expression: str | None) -> Callable[[str, Path], bool]:
     """Return whether `--dry` selects a stop, by its name, its file or, with a slash, a part of its path."""
     if expression is None:
@@ -147,8 +128,8 @@ def _selected_by(expression: str | None) -> Callable[[str, Path], bool]:
         selects = campaign.parse(expression)
 
     def selected(name: str, path: Path) -> bool:
-        named, placed = (campaign.mentioned_in(each) for each in ((name, path.name), (path.as_posix(),)))
-        return selects(lambda word: placed(word) if "/" in word else named(word))
+        by_name, by_path = map(campaign.mentioned_in, ((name, path.name), (path.as_posix(),)))
+        return selects(lambda word: by_path(word) if "/" in word else by_name(word))
 
     return selected
 
@@ -166,35 +147,30 @@ def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.
 
 
 def _stops(
-    paths: Sequence[Path],
-    mapped: field_data.ChannelMap,
-    settings: service_log.FinderSettings,
-    place: Path,
+    paths: Sequence[Path], mapped: field_data.ChannelMap, settings: service_log.FinderSettings, folder: Path
 ) -> tuple[service_log.Log, dict[Path, str]]:
     """Find and write the stops. Raises InvalidInputError where a file cannot be read."""
-    real = os.path.realpath(place)
+    real = os.path.realpath(folder)
     if inside := next((path for path in paths if path.resolve().is_relative_to(real)), None):
         raise runs.InvalidInputError(
-            f"{inside}: lies in {place}, which the stops replace: name another folder with --recordings"
+            f"{inside}: lies in {folder}, which the stops replace: name another folder with --recordings"
         )
     try:
-        found = service_log.find_stops(paths, mapped, settings)
-        return found, service_log.write_stops(found, mapped, place)
+        in_log = service_log.find_stops(paths, mapped, settings)
+        return in_log, service_log.write_stops(in_log, mapped, folder)
     except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
         raise runs.InvalidInputError(str(error)) from error
-    except (file_system.ForeignFileError, file_system.FolderInUseError) as error:
-        raise runs.InvalidInputError(_not_replaced(place, error)) from error
+    except file_system.FolderInUseError as error:
+        raise runs.InvalidInputError(str(error)) from error
+    except file_system.ForeignFileError as error:
+        changed = "uictest did not write it, or it has changed"
+        raise runs.InvalidInputError(
+            f"{folder}: {error}: {changed}: name another folder with --recordings"
+        ) from error
     except (file_system.WriteError, formats.ReadingInterruptedError):
         raise  # no errors of the recordings
     except OSError as error:
         raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error
-
-
-def _not_replaced(place: Path, error: Exception) -> str:
-    if isinstance(error, file_system.FolderInUseError):
-        return str(error)
-    changed = "uictest did not write it, or it has changed"
-    return f"{place}: {error}: {changed}: name another folder with --recordings"
 
 
 def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
@@ -207,20 +183,20 @@ def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
     return mapped.model_copy(update={"channels": channels, "time": None}).triggered_by("auto")
 
 
-def _write_events(found: service_log.Log) -> None:
+def _write_events(in_log: service_log.Log) -> None:
     """Write to stderr what was passed over, and what is unusual about stops."""
-    for event in found.passed_over:
+    for event in in_log.passed_over:
         message(f"uictest: passed over: {_sentence(event)}")
-    for number, event in enumerate(found.stops, start=1):
+    for number, event in enumerate(in_log.stops, start=1):
         if event.remarks:
-            message(f"uictest: stop-{number:04d}: {_place(event)}: {'; '.join(event.remarks)}")
-    message(f"uictest: {report.counted(len(found.stops), 'stop')}, {len(found.passed_over)} passed over")
+            message(f"uictest: stop-{number:04d}: {_location(event)}: {'; '.join(event.remarks)}")
+    message(f"uictest: {report.counted(len(in_log.stops), 'stop')}, {len(in_log.passed_over)} passed over")
 
 
 def _sentence(event: service_log.LoggedEvent) -> str:
-    return f"{_place(event)}: {event.reason}"
+    return f"{_location(event)}: {event.reason}"
 
 
-def _place(event: service_log.LoggedEvent) -> str:
+def _location(event: service_log.LoggedEvent) -> str:
     time = service_log.clock_text(event.time)
     return f"{event.file} at {time} (sample {event.row + 1}, {event.distance:.0f} m)"

@@ -14,8 +14,6 @@ from uictest.cli.output import ExitCode, data, message
 from uictest.plans.scenario import yaml
 from uictest.runs import history
 
-_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
-
 Place = Annotated[
     str | None,
     argument(
@@ -28,18 +26,14 @@ Output = Annotated[Path, option("-o --output DIR", "Folder of the runs.")]
 Last = Annotated[bool, option("--last", "Open the page of the newest run.")]
 
 
-def open_page(
-    place: Place = None,
-    last: Last = False,
-    output: Output = Path("reports"),
-) -> ExitCode:
+def open_page(place: Place = None, last: Last = False, output: Output = Path("reports")) -> ExitCode:
     """Open the index of the runs in the browser, or the page of a run. Prints the path of the page.
 
     Without a browser or a display it only prints the path.
     """
     page = _page(_folder(place, output), last=last)
     data(str(page))
-    if problem := _show(page):
+    if problem := _show_in_browser(page):
         message(f"uictest: {problem}; open the file yourself")
     return ExitCode.MET
 
@@ -63,12 +57,12 @@ def _folder(place: str | None, output: Path) -> Path:
 
 def _page(folder: Path, *, last: bool) -> Path:
     """Return the page of a run, or the index of a folder of runs, written anew. Raises InvalidInputError."""
-    found = history.read_folder(folder.resolve())
-    if isinstance(found, history.ListedRun):
-        return _page_of_run(folder.parent, found, folder.name)
+    entry = history.read_folder(folder.resolve())
+    if isinstance(entry, history.ListedRun):
+        return _page_of_run(folder.parent, entry, folder.name)
     listing = history.list_runs(folder)
     if not listing.runs:
-        raise runs.InvalidInputError(f"{folder} holds no finished run: {_why_none(folder, found, listing)}")
+        raise runs.InvalidInputError(f"{folder} holds no finished run: {_why_none(folder, entry, listing)}")
     if last:
         return _page_of_run(folder, listing.runs[0], listing.runs[0].name)
     problem = history.refresh_index(folder)
@@ -80,10 +74,10 @@ def _page(folder: Path, *, last: bool) -> Path:
     return index.absolute()
 
 
-def _why_none(folder: Path, found: history.Unlisted, listing: history.Listing) -> str:
+def _why_none(folder: Path, entry: history.Unlisted, listing: history.Listing) -> str:
     """Return why a folder is no run, or, of a folder of runs, why the first of those in it is none."""
     if not listing.unlisted or (folder / history.MANIFEST).exists():
-        return found.reason
+        return entry.reason
     first = listing.unlisted[0]
     return f"{first.name}: {first.reason}"
 
@@ -97,19 +91,14 @@ def _page_of_run(parent: Path, run: history.ListedRun, name: str) -> Path:
     return (parent / name / Path(run.page).name).absolute()
 
 
-def _show(page: Path) -> str:
+def _show_in_browser(page: Path) -> str:
     """Show a page in the browser; return why that was not possible, empty if it was."""
-    if not _may_have_browser():
+    # Without a display only a browser for terminals would be found, and would take over this one.
+    named = any(os.environ.get(name) for name in ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY"))
+    if not named and sys.platform not in ("win32", "darwin"):
         return "there is no display here"
     try:
         shown = webbrowser.open(page.as_uri())
     except (webbrowser.Error, OSError) as error:
         return f"no browser could be started: {error}"
     return "" if shown else "no browser could be started"
-
-
-def _may_have_browser() -> bool:
-    # Without a display only a browser for terminals would be found, and would take over this one.
-    if os.environ.get("BROWSER") or sys.platform in ("win32", "darwin"):
-        return True
-    return any(os.environ.get(name) for name in _DISPLAYS)

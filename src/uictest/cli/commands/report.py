@@ -19,36 +19,28 @@ from uictest.core import files
 def report(
     run: Annotated[Path, argument("DIR", "Folder of a finished run or sweep, e.g. reports/latest.")],
     formats: Annotated[
-        str,
-        option(
-            "--format FORMATS",
-            f"Formats, joined by commas: {', '.join(reports.format_names())}; junit for runs only.",
-        ),
+        str, option("--format FORMATS", f"Formats, joined by commas: {', '.join(reports.FORMATS)}.")
     ] = "xlsx",
     draw: Draw = None,
-    output: Annotated[
-        Path | None,
-        option("-o --output DIR", "Folder for the files [default: DIR]."),
-    ] = None,
+    output: Annotated[Path | None, option("-o --output DIR", "Folder for the files [default: DIR].")] = None,
 ) -> ExitCode:
     """Write a finished run or sweep in more formats. Prints the names of the files.
 
     The page draws the stops whose recordings are in the folder; 'run --record all' keeps all of them.
     """
     folder = runs.run_folder(run)
-    is_sweep = (folder / reports.SWEEP_RESULTS).is_file()
-    accepted = reports.sweep_format_names() if is_sweep else reports.format_names()
-    names = report_formats(formats, "--format", accepted)
+    is_sweep = runs.holds_sweep(folder) and (folder / reports.RESULTS).is_file()
+    names = report_formats(formats, "--format", reports.FORMATS)
     if is_sweep and draw is not None:
         raise typer.BadParameter("a sweep draws its worst cases; --draw is for runs", param_hint="--draw")
-    place = folder if output is None else output
-    written = _write_sweep(folder, place, names) if is_sweep else _write_run(folder, place, names, draw)
+    target = folder if output is None else output
+    written = _write_sweep(folder, target, names) if is_sweep else _write_run(folder, target, names, draw)
     for path in written:
         data(str(path))
     return ExitCode.MET
 
 
-def _write_run(folder: Path, place: Path, names: Sequence[str], draw: str | None) -> list[Path]:
+def _write_run(folder: Path, target: Path, names: Sequence[str], draw: str | None) -> list[Path]:
     if runs.holds_sweep(folder):
         raise runs.InvalidInputError(
             f"{folder} holds a sweep that is not finished: run its command again, "
@@ -59,10 +51,10 @@ def _write_run(folder: Path, place: Path, names: Sequence[str], draw: str | None
     with _read_as("run", folder, OSError, ValueError):
         content = reports.read_run(folder)
         chosen = _drawn_first(content, draw)
-        if reports.draws_stops(names):
+        if not reports.DRAWING.isdisjoint(names):
             content = reports.with_recorded_traces(content, folder, chosen)
-    files.make_folder(place)
-    return reports.write_formats(place, content, names)
+    files.make_folder(target)
+    return reports.publish(reports.publication_of_run(content), names, target)
 
 
 def _drawn_first(content: reports.RunContent, expression: str | None) -> frozenset[str]:
@@ -76,13 +68,13 @@ def _drawn_first(content: reports.RunContent, expression: str | None) -> frozens
     return chosen
 
 
-def _write_sweep(folder: Path, place: Path, names: Sequence[str]) -> list[Path]:
+def _write_sweep(folder: Path, target: Path, names: Sequence[str]) -> list[Path]:
     with _read_as("sweep", folder, OSError, ValueError):
-        content = reports.read_sweep(folder, traces=reports.draws_stops(names))
-    files.make_folder(place)
+        content = reports.read_sweep(folder, traces=not reports.DRAWING.isdisjoint(names))
+    files.make_folder(target)
     # The cases are read while the workbook is written.
     with _read_as("sweep", folder, ValueError):
-        return reports.write_sweep_formats(place, content, names)
+        return reports.publish(reports.publication_of_sweep(content), names, target)
 
 
 @contextlib.contextmanager

@@ -10,15 +10,7 @@ import typer
 
 from uictest import report, runs
 from uictest.cli import earlier_runs, options, run_display
-from uictest.cli.cases import (
-    case_lines,
-    cases_json,
-    drawn_first,
-    joined_json,
-    select_by_options,
-    series_json,
-    series_lines,
-)
+from uictest.cli.cases import case_lines, drawn_first, select_by_options, selection_json, series_lines
 from uictest.cli.options import option
 from uictest.cli.output import ExitCode, data, message, of_run, warn_of_implausible, worst
 from uictest.judging import evaluation
@@ -84,7 +76,7 @@ def run(
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
     spared = earlier_runs.named_paths(baseline, validated, junit, *(paths or ()))
-    formats_wanted = options.report_formats(formats, "--report", report.format_names())
+    report_formats = options.report_formats(formats, "--report", report.FORMATS)
     choice = earlier_runs.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
     cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
@@ -96,8 +88,7 @@ def run(
         message(f"uictest: {runs.nothing_selected(cases, planned)}")
         return ExitCode.NOTHING_SELECTED
     if real_time:
-        _reject_series(of_series)
-        _require_single_stops_at_sockets(selected)
+        _require_paced(selected, of_series)
     if dry_run:
         _show_selection(selected, of_series, shown)
         return ExitCode.MET
@@ -121,20 +112,37 @@ def run(
     )
     warn_of_implausible(runs.implausible_trains(batch.all_cases))
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
-    published = run_display.publish_and_show(
-        batch, output, formats_wanted, options.junit_file(junit, output), display
-    )
+    junit_file = options.junit_file(junit, output)
+    published = run_display.publish_and_show(batch, output, report_formats, junit_file, display)
     if published is None:
         return ExitCode.INTERRUPTED
     _show_slowest(published.content.all_results, durations)
     for line in report.expectation_lines(published.content.results) if suggest_expect else ():
         (data if shown is options.Format.TEXT else message)(line)
-    code = worst(
-        of_run(published),
-        earlier_runs.accept_or_compare(choice, accepted, published, quiet=quiet),
-    )
+    compared = earlier_runs.accept_or_compare(choice, accepted, published, quiet=quiet)
+    code = worst(of_run(published), compared)
     earlier_runs.keep_newest(code, keep, published.place, "run", spared)
     return code
+
+
+def _require_paced(cases: Sequence[scenario.Case], planned: Sequence[series.Series]) -> None:
+    """Raise typer.BadParameter unless the controllers are programs at a socket, each for one stop."""
+    of_series = [f"{one.id} is a series; run single stops in real time" for one in planned]
+    for reason in filter(None, (*map(_why_not_paced, cases), *of_series)):
+        raise typer.BadParameter(reason, param_hint="--real-time")
+
+
+def _why_not_paced(case: scenario.Case) -> str:
+    """Return why the stop of a case cannot be paced by the clock; empty where it can."""
+    if case.scenario.repeat > 1:
+        return f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1"
+    if case.train is not None:
+        return f"{case.id} is {case.train.label}: cycles of a train are not paced, run a car alone"
+    program = case.scenario.controller.program
+    if program is None or program.kind != "connect":
+        name = case.scenario.controller.name
+        return f"{case.id} has the controller {name!r}; expected one with `connect`, a program at a socket"
+    return ""
 
 
 def _show_selection(
@@ -142,40 +150,10 @@ def _show_selection(
 ) -> None:
     """Show what would run. JSON has the cases and then the series in one array."""
     if shown is options.Format.JSON:
-        data(joined_json(cases_json(cases), series_json(planned)))
+        data(selection_json(cases, planned))
         return
     for lines in filter(None, (case_lines(cases), series_lines(planned))):
         data(lines)
-
-
-def _reject_series(planned: Sequence[series.Series]) -> None:
-    """Raise typer.BadParameter for series: their stops are not paced by the clock."""
-    if planned:
-        raise typer.BadParameter(
-            f"{planned[0].id} is a series; run single stops in real time", param_hint="--real-time"
-        )
-
-
-def _require_single_stops_at_sockets(cases: Sequence[scenario.Case]) -> None:
-    """Raise typer.BadParameter unless the controllers are programs at a socket, each for one stop."""
-    for case in cases:
-        if case.scenario.repeat > 1:
-            raise typer.BadParameter(
-                f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1",
-                param_hint="--real-time",
-            )
-        if case.train is not None:
-            raise typer.BadParameter(
-                f"{case.id} is {case.train.label}: cycles of a train are not paced, run a car alone",
-                param_hint="--real-time",
-            )
-        program = case.scenario.controller.program
-        if program is None or program.kind != "connect":
-            raise typer.BadParameter(
-                f"{case.id} has the controller {case.scenario.controller.name!r}; "
-                "expected one with `connect`, a program at a socket",
-                param_hint="--real-time",
-            )
 
 
 def _show_slowest(results: Sequence[evaluation.CaseResult], count: int | None) -> None:

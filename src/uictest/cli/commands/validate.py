@@ -19,10 +19,7 @@ Files = Annotated[
     list[Path],
     argument("FILE...", "Validation files (.yaml), or series that name recordings.", show_default=False),
 ]
-Output = Annotated[
-    Path,
-    option("-o --output DIR", "Folder for validations; each gets a folder in it."),
-]
+Output = Annotated[Path, option("-o --output DIR", "Folder for validations; each gets a folder in it.")]
 
 
 def validate(
@@ -37,8 +34,8 @@ def validate(
 ) -> ExitCode:
     """Compare recorded stops with their simulation: bias and spread of every figure, and the domain.
 
-    Writes validation.json, which `uictest run --validated` reads, figures.csv, stops.csv and validation.md.
-    Exit code 1: a recorded stop cannot be counted; 3: a simulation failed.
+    Writes validation.json, which `uictest run --validated` reads, a summary, and a table of figures and
+    stops. Exit code 1: a recorded stop cannot be counted; 3: a simulation failed.
     """
     plans = runs.load_validations(files, overrides, trusted)
     if shown is options.PlainFormat.JSON and len(plans) > 1:

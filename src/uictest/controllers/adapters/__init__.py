@@ -20,7 +20,7 @@ _MODULES: Final[dict[Kind, str]] = {
     "library": "c_library",
     "fmu": "fmu",
     "connect": "socket",
-    "registered": "registered",
+    "registered": "python_class",
 }
 """Kind of controller -> its adapter."""
 

@@ -6,8 +6,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers.adapters.errors import ControllerError, unchanged_content
-from uictest.controllers.adapters.instance import ControllerInstance, checked_contract, reject_undeclared
+from uictest.controllers.adapters.instance import (
+    ControllerError,
+    ControllerInstance,
+    checked_contract,
+    reject_undeclared,
+    unchanged_content,
+)
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import WHEELSETS, Config
 
@@ -92,7 +97,6 @@ def open_controller(program: ControllerProgram, config: Config) -> ControllerIns
 
 @cache
 def _loaded(location: str, sha256: str) -> Any:
-    """Return a library whose functions are there and have their types."""
     path = Path(location)
     if _LOADED.get(location, sha256) != sha256:  # the system's loader would return the one that it has
         raise ControllerError(f"{path.name} was built anew: this process has loaded it before; start another")

@@ -1,6 +1,7 @@
 """What every adapter returns: a controller that compiled code calls by address."""
 
 import ctypes
+import hashlib
 import json
 import math
 import sys
@@ -15,7 +16,6 @@ from pathlib import Path
 from struct import Struct
 from typing import Any, Final, NamedTuple
 
-from uictest.controllers.adapters.errors import ControllerError
 from uictest.controllers.declared import CONTRACTS, ControllerProgram, nothing_declared, parameter_problems
 from uictest.controllers.interface import INPUTS, OUTPUT_BYTES, OUTPUTS, WHEELSETS, Inputs, Outputs
 
@@ -23,6 +23,33 @@ STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p,
 """`uictest_step`."""
 _LARGEST_DIAGNOSIS: Final = 2**32 - 1
 _PACKAGE: Final = Path(__file__).parents[2]
+_LONGEST: Final = 2000
+"""Characters of what is told about a failure; chosen: a reason stands in every report."""
+
+
+class ControllerError(Exception):
+    """A controller cannot be loaded, or failed; the message says why.
+
+    `output` is what it printed in its stop, where that is kept.
+    """
+
+    output = ""
+
+    def __init__(self, message: str) -> None:
+        more = " ..." if len(message) > _LONGEST else ""
+        super().__init__(message[:_LONGEST] + more)
+
+
+class OnlyOneError(ControllerError):
+    """A controller cannot be loaded because one of its kind is open, and a process can have only one."""
+
+
+def unchanged_content(path: Path, sha256: str) -> bytes:
+    """Return the content of a program's file. Raises ControllerError where it is another than was read."""
+    content = path.read_bytes()
+    if hashlib.sha256(content).hexdigest() != sha256:
+        raise ControllerError(f"{path.name} has changed since the scenario was read")
+    return content
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,8 +190,8 @@ def _place_of(error: BaseException) -> str:
     if isinstance(error, ControllerError):
         return ""
     frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if not Path(frame.filename).is_relative_to(_PACKAGE)]
-    return f" ({Path(own[-1].filename).name}, line {own[-1].lineno})" if own else ""
+    foreign = [frame for frame in frames if not Path(frame.filename).is_relative_to(_PACKAGE)]
+    return f" ({Path(foreign[-1].filename).name}, line {foreign[-1].lineno})" if foreign else ""
 
 
 def _packed(layout: Any, *names: str) -> Struct:
@@ -225,8 +252,8 @@ def write_outputs(memory: Any, outputs: Outputs, contract: int) -> None:
     added = [getattr(outputs, name, None) for name in _ADDED]
     if contract > 1:
         _ADDED_OUTPUTS.pack_into(memory, OUTPUT_BYTES[1], *_of_version_2(*added))
-    elif any(each is not None for each in added):
-        name = next(name for name, each in zip(_ADDED, added, strict=True) if each is not None)
+    elif any(value is not None for value in added):
+        name = next(name for name, value in zip(_ADDED, added, strict=True) if value is not None)
         raise ControllerError(f"{name} belongs to contract version 2, and the controller is of version 1")
     _OUTPUTS.pack_into(memory, 0, *answer, bits)
 
@@ -234,7 +261,7 @@ def write_outputs(memory: Any, outputs: Outputs, contract: int) -> None:
 def _of_version_2(reduction: Any, sand: Any, track_brake: Any) -> tuple[Any, ...]:
     shares = _four("dynamic_reduction", _NONE if reduction is None else reduction)
     return (
-        *(_number(f"dynamic_reduction[{place}]", share) for place, share in enumerate(shares)),
+        *(_number(f"dynamic_reduction[{number}]", share) for number, share in enumerate(shares)),
         *_magnets("sand_request", _NONE if sand is None else sand),
         0 if track_brake is None else _bit("track_brake_request", track_brake),
     )
@@ -244,7 +271,7 @@ def _magnets(name: str, values: Any) -> tuple[int, ...]:
     listed = _four(name, values)
     with suppress(KeyError, TypeError):  # what is neither 0 nor 1, and what is no number at all
         return tuple(_STATES[listed])
-    return tuple(_bit(f"{name}[{place}]", value) for place, value in enumerate(listed))
+    return tuple(_bit(f"{name}[{number}]", value) for number, value in enumerate(listed))
 
 
 def _bit(name: str, value: Any) -> int:
@@ -304,13 +331,15 @@ def reject_undeclared(program: ControllerProgram, stated: str | None) -> None:
 def stated_declarations(text: str) -> dict[str, StatedDeclaration]:
     """Return the declarations in the JSON of a program. Raises ControllerError where they are none."""
     try:
-        stated = {str(name): StatedDeclaration(**each) for name, each in json.loads(text).items()}
-        for name, each in stated.items():
-            low, high = map(float, each.range or (0.0, 0.0))
+        stated = {
+            str(name): StatedDeclaration(**declaration) for name, declaration in json.loads(text).items()
+        }
+        for name, declaration in stated.items():
+            low, high = map(float, declaration.range or (0.0, 0.0))
             if not low <= high:
                 raise ValueError(f"the range of {name} is {low:g} to {high:g}")
-            defaults = {} if each.default is None else {name: each.default}
-            for problem in parameter_problems({name: each}, defaults):
+            defaults = {} if declaration.default is None else {name: declaration.default}
+            for problem in parameter_problems({name: declaration}, defaults):
                 raise ValueError(f"the default of {name}: {problem}")
         return stated
     except (ValueError, TypeError, AttributeError, RecursionError) as error:

@@ -14,7 +14,7 @@ reason.
 
 Header, order of the frames and the first field of HELO stay as they are in every version of the protocol.
 uictest greets with version 1. Where the program answers with version 2, STEP has the inputs and outputs of
-version 2 of the contract.
+version 2 of the contract. A program serves one stop at a time: stops take turns at its address.
 """
 
 import ctypes
@@ -22,12 +22,16 @@ import socket
 import struct
 from collections.abc import Callable
 from contextlib import suppress
+from threading import Lock
 from time import monotonic, sleep
 from typing import Final
 
-from uictest.controllers.adapters.errors import ControllerError
-from uictest.controllers.adapters.instance import CallbackInstance, ResponseTimes, checked_contract
-from uictest.controllers.adapters.turns import Turn
+from uictest.controllers.adapters.instance import (
+    CallbackInstance,
+    ControllerError,
+    ResponseTimes,
+    checked_contract,
+)
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import INPUT_BYTES, OUTPUT_BYTES, WHEELSETS, Config
 
@@ -120,9 +124,9 @@ class Connection:
         while received < needed:
             part = self._receive_part(received, needed, kind, deadline)
             if part == 0:
-                place = f"after {received} of {needed} bytes of" if received else "before"
+                when = f"after {received} of {needed} bytes of" if received else "before"
                 raise ControllerError(
-                    f"the program closed the connection {place} its answer to the {_NAMES[kind]}"
+                    f"the program closed the connection {when} its answer to the {_NAMES[kind]}"
                 )
             received += part
         return received
@@ -144,12 +148,12 @@ class Connection:
 
     def _checked_length(self, kind: bytes, size: int) -> int:
         """Return the bytes of the answer's body. Raises ControllerError where its header is another one."""
-        found, length, number = HEADER.unpack_from(self._memory)
-        if found == FAILED and length <= LONGEST_REASON:
+        kind_found, length, number = HEADER.unpack_from(self._memory)
+        if kind_found == FAILED and length <= LONGEST_REASON:
             return int(length)
         answer = f"the answer to the {_NAMES[kind]}"
-        if found != kind:
-            raise ControllerError(f"{answer} begins with {found!r}, expected {kind!r}")
+        if kind_found != kind:
+            raise ControllerError(f"{answer} begins with {kind_found!r}, expected {kind!r}")
         if number != self._number:
             raise ControllerError(f"{answer} has the number {number}, expected {self._number}")
         if length != size:
@@ -167,10 +171,7 @@ class RealTime:
     """
 
     def __init__(
-        self,
-        cycle_time: float,
-        clock: Callable[[], float] = monotonic,
-        wait: Callable[[float], None] = sleep,
+        self, cycle_time: float, clock: Callable[[], float] = monotonic, wait: Callable[[float], None] = sleep
     ) -> None:
         self._cycle_time = cycle_time
         self._clock = clock
@@ -216,6 +217,104 @@ class RealTime:
 
     def _due(self, cycle: int) -> float:
         return self._first + cycle * self._cycle_time
+
+
+STARTING: Final = 5.0
+"""Longest time in which a program starts to listen, s; chosen: an interpreter takes about one."""
+_PAUSE: Final = 0.05
+"""Time between two attempts to connect, s; chosen."""
+
+
+class _Address:
+    """What all stops at an address share."""
+
+    def __init__(self) -> None:
+        self.free = Lock()
+        self.patience = STARTING
+        """Time for which attempts to connect are repeated, s; 0 once no program has listened, so that a batch
+        does not wait for every case."""
+
+
+_ADDRESSES: Final[dict[str, _Address]] = {}
+_TURNS: Final[set["Turn"]] = set()
+"""Those that wait or are connected."""
+
+
+def interrupt_turns() -> None:
+    """End the stops that wait for a program at a socket; each raises ControllerError in its own thread."""
+    turns = tuple(_TURNS)
+    for turn in turns:
+        turn.interrupted = True
+    # Only now: the end of one connection lets the next stop begin, which must not connect any more.
+    for turn in turns:
+        turn.disconnect()
+
+
+class Turn:
+    """The turn of one stop at an address such as ``tcp://127.0.0.1:5025``."""
+
+    def __init__(self, location: str) -> None:
+        self._location = location
+        self._address = _ADDRESSES.setdefault(location, _Address())
+        self._stream: socket.socket | None = None
+        self.interrupted = False
+
+    def begin(self) -> socket.socket:
+        """Wait for the stops before this one, then connect. Raises ControllerError where nobody listens."""
+        _TURNS.add(self)
+        try:
+            self._address.free.acquire()
+        except BaseException:
+            _TURNS.discard(self)
+            raise
+        try:
+            self._stream = self._connected()
+            self._reject_interrupted()  # while it was connected
+        except BaseException:
+            self.end()
+            raise
+        return self._stream
+
+    def end(self) -> None:
+        """Close the connection, and let the next stop begin."""
+        _TURNS.discard(self)
+        if self._stream is not None:
+            self._stream.close()
+        self._address.free.release()
+
+    def disconnect(self) -> None:
+        """End the stop, if it is connected, from another thread."""
+        if self._stream is not None:
+            with suppress(OSError):
+                self._stream.shutdown(socket.SHUT_RDWR)
+
+    def _connected(self) -> socket.socket:
+        until = monotonic() + self._address.patience
+        while True:
+            try:
+                return self._attempt()
+            except OSError as error:
+                if monotonic() >= until:
+                    self._address.patience = 0.0
+                    reason = error.strerror or str(error)
+                    message = f"no program listens at {self._location} ({reason}); start it before the run"
+                    raise ControllerError(message) from None
+            sleep(_PAUSE)
+
+    def _attempt(self) -> socket.socket:
+        self._reject_interrupted()
+        host, _, port = self._location.removeprefix("tcp://").rpartition(":")
+        stream = socket.create_connection((host, int(port)), timeout=STARTING)
+        if stream.getsockname() == stream.getpeername():
+            # Where nobody listens, a port of this machine may be given to both ends of one connection.
+            stream.close()
+            raise ConnectionRefusedError("connected to itself")
+        self._address.patience = STARTING
+        return stream
+
+    def _reject_interrupted(self) -> None:
+        if self.interrupted:
+            raise ControllerError("interrupted before the program was connected")
 
 
 class SocketInstance(CallbackInstance):

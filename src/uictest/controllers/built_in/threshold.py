@@ -140,12 +140,10 @@ def _read_speed(wheelset: Wheelset, parameters: Parameters) -> None:
 
 
 def _slip_threshold(reference: float, parameters: Parameters) -> float:
-    """Return the slip speed from which a wheelset slides, m/s."""
     return parameters.slip_threshold + parameters.slide_threshold * reference
 
 
 def _recovered_slip(reference: float, parameters: Parameters) -> float:
-    """Return the slip speed below which a wheelset has caught up, m/s."""
     return parameters.recovery_share * _slip_threshold(reference, parameters)
 
 
@@ -209,7 +207,6 @@ def _shows_speed(wheelset: Wheelset, parameters: Parameters) -> bool:
 
 
 def _enter(wheelset: Wheelset, mode: int) -> None:
-    """Continue in the same mode or enter another."""
     if mode == wheelset.mode:
         wheelset.mode_cycles += 1
     else:
@@ -217,7 +214,6 @@ def _enter(wheelset: Wheelset, mode: int) -> None:
 
 
 def _next_mode(wheelset: Wheelset, reference: float, parameters: Parameters) -> int:
-    """Return the mode of the wheelset for the coming cycle."""
     slip = reference - wheelset.plausible_speed
     time_in_mode = (wheelset.mode_cycles + 1) * parameters.cycle_time
     if reference < parameters.minimum_speed or wheelset.distrusted == 1:

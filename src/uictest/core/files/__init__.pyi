@@ -1,12 +1,7 @@
-from .listing import (
-    LIST as LIST,
-    begin_list as begin_list,
-    relative_path as relative_path,
-    remove_listed as remove_listed,
-)
-from .lock import FolderInUseError as FolderInUseError, FolderLock as FolderLock
 from .run_folder import (
     LATEST as LATEST,
+    FolderInUseError as FolderInUseError,
+    FolderLock as FolderLock,
     ForeignFileError as ForeignFileError,
     RunFolder as RunFolder,
     latest_run as latest_run,
@@ -15,12 +10,16 @@ from .run_folder import (
     replaced_folder as replaced_folder,
 )
 from .writing import (
+    LIST as LIST,
     WriteError as WriteError,
     append as append,
+    begin_list as begin_list,
     make_folder as make_folder,
     new_file as new_file,
     new_temporary_folder as new_temporary_folder,
+    relative_path as relative_path,
     remove as remove,
+    remove_listed as remove_listed,
     remove_partial_files as remove_partial_files,
     remove_temporary_folder as remove_temporary_folder,
     require_place as require_place,

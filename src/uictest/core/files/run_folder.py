@@ -1,7 +1,12 @@
-"""The folder of one run: filled under a hidden name, renamed when it is complete.
+"""The folder of one run, and locks of folders: one process works in a folder at a time.
 
-The next run removes what a killed run left under such a name. `latest` next to the folders names the newest:
-a symbolic link, or a text file where links are impossible.
+A run folder is filled under a hidden name, and renamed when it is complete. The next run removes what a
+killed run left under such a name. `latest` next to the folders names the newest: a symbolic link, or a text
+file where links are impossible.
+
+The operating system holds the lock and releases it when the process ends, so that neither reused process ids
+nor clocks matter. It works between machines if the network share supports such locks. Without such support
+every lock is granted, and no folder counts as abandoned.
 """
 
 from __future__ import annotations
@@ -10,22 +15,183 @@ import errno
 import itertools
 import logging
 import os
+import platform
+import secrets
+import stat
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from io import FileIO
 from pathlib import Path
 from types import TracebackType
 from typing import Final, Self
 
-from uictest.core.files.listing import (
+from uictest.core.files.writing import (
     LIST,
+    WriteError,
     begin_list,
     foreign_paths,
     is_file,
+    make_folder,
     partial_name,
+    path_below,
     remove_contents,
+    remove_empty,
+    writing,
 )
-from uictest.core.files.lock import LOCK, FolderInUseError, FolderLock
-from uictest.core.files.writing import WriteError, make_folder, remove_empty, writing
+
+LOCK: Final = ".uictest.lock"
+_SHARED: Final = ".uictest-*.lock"
+"""Files of shared locks: each holder has one of its own, as systems without shared locks exist."""
+_MARK: Final = b"uictest lock: "
+"""How the file of a lock begins; an empty one is being made."""
+_LONGEST: Final = 500
+_PAUSE: Final = 0.05
+"""Between two attempts, s; chosen."""
+
+
+class FolderInUseError(Exception):
+    """Another process holds the lock of the folder; the message names it."""
+
+
+class FolderLock:
+    """The lock of a folder, held from its construction to the end of the block.
+
+    Windows renames no folder and removes no file in which a lock is held.
+
+    Args:
+        folder: an existing folder; it may be a link.
+        below: path of a folder below it, through no link; empty for the folder itself.
+        shared: whether other shared locks may be held at the same time.
+        abandoned: whether only the lock is wanted that a process left which has ended.
+        patience: how long to wait for another process, s.
+
+    Raises:
+        FolderInUseError: another process holds the lock.
+        OSError: the folder cannot be written, or a file of this name is not of uictest: it stays as it is.
+            FileNotFoundError: there is no abandoned lock.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        below: str = "",
+        *,
+        shared: bool = False,
+        abandoned: bool = False,
+        patience: float = 0.0,
+    ) -> None:
+        self.leaves_file = False
+        """Whether the file stays at the release: it marks an abandoned folder."""
+        self._folder = path_below(folder, below)
+        self._path = self._folder / (_SHARED.replace("*", secrets.token_hex(8)) if shared else LOCK)
+        latest = time.monotonic() + patience
+        while True:
+            try:
+                self._file = _locked(self._path, make=not abandoned)
+                self._require_only(shared=shared)
+                break
+            except FolderInUseError:
+                if time.monotonic() >= latest:
+                    raise
+                time.sleep(_PAUSE)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.release()
+
+    def release(self) -> None:
+        """Release the lock, once; its file is removed, unless it is to stay."""
+        if not self._file.closed:
+            _release(self._file, self._path, leave=self.leaves_file)
+
+    def _require_only(self, *, shared: bool) -> None:
+        """Write who holds the lock, and release it where another process holds one that excludes it."""
+        holder = "another shard" if shared else f"process {os.getpid()} on {platform.node()}"
+        try:
+            with suppress(OSError):  # a full disk: nobody learns the name
+                self._file.truncate(self._file.seek(0))
+                self._file.write(_MARK + holder.encode())
+            # Whoever comes at the same time looks for this one after taking its own: one of the two sees it.
+            for other in [self._folder / LOCK] if shared else self._folder.glob(_SHARED):
+                with suppress(FileNotFoundError, FileExistsError):  # it is free, or no lock
+                    _release(_locked(other, make=False), other)
+        except BaseException:
+            self.release()
+            raise
+
+
+def _locked(path: Path, *, make: bool) -> FileIO:
+    """Return the open file of a lock that is held now; `make` makes a missing one.
+
+    Raises FolderInUseError, OSError.
+    """
+    while True:
+        with ExitStack() as attempt:
+            file = attempt.enter_context(_opened(path, make=make))
+            granted = _granted(file)
+            if not granted and not make:
+                raise FileNotFoundError(errno.ENOENT, "there are no locks here", str(path))
+            if granted and not _is_at(path, file):
+                continue  # its last holder has just removed it
+            status = os.fstat(file.fileno())
+            if status.st_nlink > 1 or not (_holder(file) or (make and not status.st_size)):
+                raise _no_lock(path)
+            attempt.pop_all()
+            return file
+
+
+def _opened(path: Path, *, make: bool) -> FileIO:
+    with suppress(FileNotFoundError):
+        if not stat.S_ISREG(path.lstat().st_mode):
+            raise _no_lock(path)
+    return path.open("a+b" if make else "r+b", buffering=0)
+
+
+def _no_lock(path: Path) -> FileExistsError:
+    text = "is no lock of uictest and stays as it is: remove it, or use another folder"
+    return FileExistsError(errno.EEXIST, text, str(path))
+
+
+def _holder(file: FileIO) -> bytes:
+    """Return who holds a lock as its file says, with the mark; nothing where it is none of uictest."""
+    file.seek(1)  # nobody else can read the first byte of a locked file of Windows
+    content = _MARK[:1] + file.read(_LONGEST)
+    return content if content.startswith(_MARK) else b""
+
+
+def _granted(file: FileIO) -> bool:
+    """Lock an open file; return False where there are no locks. Raises FolderInUseError."""
+    from filelock import lock_descriptor
+
+    try:
+        if lock_descriptor(file.fileno(), blocking=False):
+            return True
+    except OSError:
+        return False
+    holder = _holder(file).removeprefix(_MARK).decode("utf-8", "replace")
+    raise FolderInUseError(holder or "another process")
+
+
+def _is_at(path: Path, file: FileIO) -> bool:
+    try:
+        return os.path.samestat(path.lstat(), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
+
+
+def _release(file: FileIO, path: Path, *, leave: bool = False) -> None:
+    """Release a lock; its file is removed, unless it is to stay or is no longer that of this path."""
+    with file, suppress(OSError):
+        if not leave and _is_at(path, file):
+            file.truncate(0)  # whoever opens it before it is removed finds no abandoned lock
+            path.unlink()
+        return
+    with suppress(OSError):  # Windows removes a file after it is closed, unless another process has opened it
+        path.unlink()
+
 
 LATEST: Final = "latest"
 _LONGEST_NAME: Final = 255
@@ -89,8 +255,8 @@ class RunFolder:
         return self.path
 
     def _remove_contents(self) -> None:
-        if stay := remove_contents(self.path, LOCK):
-            _warn(self.path, stay[0])
+        if remaining := remove_contents(self.path, LOCK):
+            _warn(self.path, remaining[0])
 
 
 class ForeignFileError(Exception):
@@ -117,9 +283,9 @@ def remove_run(parent: Path, name: str, replace: Callable[[], object] = lambda: 
     if not _renamed(folder, hidden):
         raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(hidden))
     replace()
-    if stay := _removed(hidden, abandoned=False):
+    if foreign := _removed(hidden, abandoned=False):
         _renamed(hidden, folder)
-        raise ForeignFileError(stay)
+        raise ForeignFileError(foreign)
 
 
 @contextmanager
@@ -138,7 +304,7 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
     with writing(named), suppress(FileNotFoundError):
         foreign = [*foreign_paths(folder, LOCK)] if any(folder.iterdir()) else []
         if foreign:  # what lies there says more than a missing list
-            raise ForeignFileError(next((each for each in foreign if each != LIST), LIST))
+            raise ForeignFileError(next((path for path in foreign if path != LIST), LIST))
     with RunFolder(folder.parent, folder.name) as new:
         yield new.path
         with suppress(OSError):  # it is missing, or holds something
@@ -154,8 +320,8 @@ def _remove_abandoned(parent: Path) -> None:
     """Remove what killed processes left: folders with an unlocked lock of uictest, and listed files alone."""
     for folder in [*parent.glob(".*.partial")]:
         with suppress(OSError, FolderInUseError):
-            if stay := _removed(folder, abandoned=True):
-                _warn(folder, stay)
+            if foreign := _removed(folder, abandoned=True):
+                _warn(folder, foreign)
 
 
 def _removed(folder: Path, *, abandoned: bool) -> str:
@@ -185,8 +351,8 @@ def _names(name: str) -> Iterator[str]:
 
 def _reserved(parent: Path, name: str) -> str:
     """Return the first name that no folder has, after its hidden folder was made: no other run has that."""
-    for each in _names(name):
-        folder = parent / each
+    for free in _names(name):
+        folder = parent / free
         if os.path.lexists(folder):
             continue
         try:
@@ -194,7 +360,7 @@ def _reserved(parent: Path, name: str) -> str:
         except FileExistsError:
             continue
         if not os.path.lexists(folder):
-            return each
+            return free
         _hidden(folder).rmdir()  # another run was published meanwhile
     raise AssertionError  # there are always more names
 

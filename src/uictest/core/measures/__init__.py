@@ -1,6 +1,6 @@
 """Measures: the numbers that describe a stop.
 
-`catalogue` declares every measure in one row; the registry finds them, and all other rooms read it.
+`catalogue` declares and finds every measure, one row each; all other rooms read it.
 
 `samples` has the order in which a sample updates the records: the simulator feeds one per controller cycle,
 the evaluation of a recording one per row. The same functions observe simulated and recorded stops. They are

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from dataclasses import dataclass, field, replace
+from operator import attrgetter
+from typing import Any, Literal, NamedTuple
 
 from uictest.core.measures.records import StopMeasures, WheelsetMeasures
+from uictest.core.units import KINDS
 
 Course = Literal["grows", "falls", "settles"]
 """What a value can do while the stop goes on: only grow, only fall, or no more once there is one."""
@@ -53,6 +56,10 @@ def value_per_wheelset(numbers: Iterable[float]) -> MeasureValue:
 def unavailable(reason: str) -> MeasureValue:
     """Return that a measure has no value, and why."""
     return MeasureValue(unavailable_reason=reason)
+
+
+def _of_the_field(*_: Any) -> Any:
+    """Stand for reading the measure's field."""
 
 
 class Overview(NamedTuple):
@@ -106,11 +113,12 @@ class Column:
 class StopColumn(Column):
     """A column of stops.
 
-    `read` returns the number in SI units, NaN where there is none. `defaults` holds the value of each
-    definition that it uses for a stop none of whose criteria defines its own.
+    `read` returns the number in SI units, NaN where there is none; left out, that of the measure's field.
+    `defaults` holds the value of each definition that it uses for a stop none of whose criteria defines its
+    own.
     """
 
-    read: Callable[[StopMeasures, DefinitionValues], float] = field(kw_only=True)
+    read: Callable[[StopMeasures, DefinitionValues], float] = field(kw_only=True, default=_of_the_field)
     defaults: DefinitionValues = field(default_factory=dict)
 
 
@@ -118,10 +126,11 @@ class StopColumn(Column):
 class WheelsetColumn(Column):
     """A column of wheelsets.
 
-    `read` returns the number of one wheelset in SI units, NaN where there is none.
+    `read` returns the number of one wheelset in SI units, NaN where there is none; left out, that of the
+    measure's field.
     """
 
-    read: Callable[[WheelsetMeasures], float] = field(kw_only=True)
+    read: Callable[[WheelsetMeasures], float] = field(kw_only=True, default=_of_the_field)
 
 
 class RecordedData(NamedTuple):
@@ -158,7 +167,7 @@ class ShownWhen:
         plot: key of the panel or the strip that shows it.
         field: of the records of the wheelsets, else of that of the stop, whose changes decide. Every measure
             of the wheelsets names one: a recording is only fed to what these fields need.
-        place: in the field, where that is a table.
+        index: in the field, where that is a table.
         among: the wheelsets that count; None: all of them.
         channel: of the train that the extreme lies on, where the field is not drawn itself.
         span: first and last time, s, by the record of the whole stop; None: from its beginning to its end.
@@ -174,7 +183,7 @@ class ShownWhen:
     how: How
     plot: str
     field: str = ""
-    place: Callable[[DefinitionValues], int] | None = None
+    index: Callable[[DefinitionValues], int] | None = None
     among: Callable[[WheelsetMeasures], bool] | None = None
     channel: str = ""
     span: Callable[[StopMeasures, DefinitionValues], tuple[float, float]] | None = None
@@ -193,10 +202,13 @@ class Measure:
     Args:
         name: in criteria files.
         kind: of quantity that its bounds are, a key of :data:`uictest.core.units.KINDS`.
-        unit: that a criterion prints value and bounds in.
+        unit: that a criterion prints value and bounds in; left out, the most usual of the kind.
         course: what the value can do while the stop goes on.
         meaning: what it is, in words.
-        read: returns its value.
+        field: of the record of the stop, or of each wheelset, that holds its value; left out, that of its
+            name.
+        absent: why there is no value where no such field holds a number; empty where one always does.
+        read: returns its value; left out, it is that of the field.
         decided: when a stop decides it; None for what no moment of a stop decides.
         of_wheelsets: whether every wheelset has a value.
         of_faults: whether it says something about the reaction to faults: nothing, where none began.
@@ -218,10 +230,12 @@ class Measure:
 
     name: str
     kind: str
-    unit: str
+    unit: str = ""
     course: Course
     meaning: str
-    read: Reader
+    field: str = ""
+    absent: str = ""
+    read: Reader = _of_the_field
     decided: ShownWhen | None = None
     of_wheelsets: bool = False
     of_faults: bool = False
@@ -236,3 +250,20 @@ class Measure:
     corrected: tuple[str, ...] = ()
     share_of: str = ""
     finite_field: str = ""
+
+    def __post_init__(self) -> None:
+        """Set unit and field, and read the field where the measure, or its column, says nothing else."""
+        object.__setattr__(self, "unit", self.unit or next(iter(KINDS[self.kind].units), "1"))
+        object.__setattr__(self, "field", self.field or self.name)
+        if self.read is _of_the_field:
+            object.__setattr__(self, "read", self._read_field)
+        if self.column is not None and self.column.read is _of_the_field:
+            number: Any = attrgetter(self.field)
+            of_stop = isinstance(self.column, StopColumn)
+            read: Any = (lambda stop, definition: number(stop)) if of_stop else number
+            object.__setattr__(self, "column", replace(self.column, read=read))
+
+    def _read_field(self, stop: StopMeasures, wheelsets: Wheelsets, _: DefinitionValues) -> MeasureValue:
+        records = wheelsets if self.of_wheelsets else [stop]
+        value = value_per_wheelset(map(attrgetter(self.field), records))
+        return unavailable(self.absent) if self.absent and all(map(math.isnan, value.values)) else value

@@ -1,12 +1,15 @@
 """Measures of a stop as records: one per stop and one per wheelset.
 
-SI units; NaN where something never happened.
+SI units; NaN where something never happened. `starts_at` is the number before anything is observed; what is
+kept from the first sample, and tables, have none.
 """
 
 from collections.abc import MutableSequence
 from typing import Annotated
 
-from uictest.core.record import Record, from_scenario
+from uictest.core.record import Record, from_scenario, starts_at
+
+NAN, INFINITY = float("nan"), float("inf")
 
 SPEED_CLASSES = 21
 """Classes of train speed, 10 km/h apart: the largest slide is kept above each of 0, 10, .. 200 km/h."""
@@ -23,100 +26,100 @@ class StopMeasures(Record):
     """Measures of a stop; pressures are gauge."""
 
     initial_speed: float  # m/s
-    stopped: float  # 1 when the train came to a standstill
-    braking_time: float  # from the command to standstill, s
-    braking_distance: float  # from the command to standstill, m
+    stopped: float = starts_at(0.0)  # 1 when the train came to a standstill
+    braking_time: float = starts_at(NAN)  # from the command to standstill, s
+    braking_distance: float = starts_at(NAN)  # from the command to standstill, m
     previous_time: float  # last sample but one, s
     previous_speed: float  # m/s
     end_time: float  # last sample, s
     end_distance: float  # m
     end_speed: float  # m/s
-    minimum_deceleration: float  # filtered, brake developed, train moving, m/s2
-    maximum_deceleration: float  # filtered, train moving, m/s2
-    filtered_deceleration: float  # memory of the low-pass, m/s2
-    sliding_time: float  # first sliding of any wheelset, s
-    sliding_wheelset: float  # which one, 1..4
+    minimum_deceleration: float = starts_at(NAN)  # filtered, brake developed, train moving, m/s2
+    maximum_deceleration: float = starts_at(NAN)  # filtered, train moving, m/s2
+    filtered_deceleration: float = starts_at(0.0)  # memory of the low-pass, m/s2
+    sliding_time: float = starts_at(NAN)  # first sliding of any wheelset, s
+    sliding_wheelset: float = starts_at(NAN)  # which one, 1..4
     speed_after_sliding: Annotated[MutableSequence[float], WINDOW_SECONDS + 1]  # at 0, 1, .. s after it, m/s
     reached_time: Annotated[MutableSequence[float], len(END_SPEEDS)]  # first sample at or below each, s
     half_slow_time: Annotated[MutableSequence[float], SLOW_TIMES]  # at least half of the wheelsets at once, s
     reservoir_minimum_pressure: float  # Pa
-    reservoir_margin: float  # lowest over the highest cylinder pressure, Pa
+    reservoir_margin: float = starts_at(INFINITY)  # lowest over the highest cylinder pressure, Pa
     commanded_pressure: float  # of the brake line, Pa
     line_pressure: float  # of the brake line at the last sample, Pa
-    rise_time: float  # when it began to rise, s
-    rise_distance: float  # m
-    rise_speed: float  # m/s
-    build_up_time: float  # equivalent, s
-    build_up_distance: float  # run until then, m
-    exploited_work: float  # of the rail on all wheelsets while it limits the brake, J
-    available_work: float  # that it could have done meanwhile, J
-    adhesion_utilisation: float  # share of the two over the whole stop
-    deceleration_bogie_1: float  # mean, given by the rail through the leading bogie, m/s2
-    deceleration_bogie_2: float
-    air_consumed: float  # taken from the reservoir, kg
-    energy_residual: float  # share of the initial kinetic energy
-    air_residual: float  # share of the air taken from the reservoir
-    air_energy_residual: float  # share of the enthalpy of that air
-    line_saturation: float  # time for which the brake line's pressure sensor is limited by its range, s
-    saturation_time: float  # first sample by which any sensor has been, s
-    compensation_misfit: float  # differences from the rig it was identified for, over tolerances
-    samples: float
-    held_time: float  # for which traction has held the speed of a drag, s
-    track_brake_energy: float  # that the track brake turned into heat, where there is one, J
-    track_brake_time: float  # for which it acted, s
-    track_brake_time_beside: float  # for which those of other cars of its train acted, the longest, s
-    fault_time: float  # first cycle with a fault while the train moves, s
-    reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
-    reference_distance: float  # shortest at any slide that is kept on the same rail, of a car alone, m
-    has_diagnosis: float  # 1 where the controller can report something, else 0; NaN where that is not known
+    rise_time: float = starts_at(NAN)  # when it began to rise, s
+    rise_distance: float = starts_at(NAN)  # m
+    rise_speed: float = starts_at(NAN)  # m/s
+    build_up_time: float = starts_at(NAN)  # equivalent, s
+    build_up_distance: float = starts_at(NAN)  # run until then, m
+    exploited_work: float = starts_at(0.0)  # of the rail on all wheelsets while it limits the brake, J
+    available_work: float = starts_at(0.0)  # that it could have done meanwhile, J
+    adhesion_utilisation: float = starts_at(NAN)  # share of the two over the whole stop
+    deceleration_bogie_1: float = starts_at(NAN)  # mean, given by the rail through the leading bogie, m/s2
+    deceleration_bogie_2: float = starts_at(NAN)
+    air_consumed: float = starts_at(NAN)  # taken from the reservoir, kg
+    energy_residual: float = starts_at(NAN)  # share of the initial kinetic energy
+    air_residual: float = starts_at(NAN)  # share of the air taken from the reservoir
+    air_energy_residual: float = starts_at(NAN)  # share of the enthalpy of that air
+    line_saturation: float = starts_at(0.0)  # for which the brake line's sensor is limited by its range, s
+    saturation_time: float = starts_at(NAN)  # first sample by which any sensor has been, s
+    compensation_misfit: float = starts_at(NAN)  # differences from the rig identified, over tolerances
+    samples: float = starts_at(1.0)
+    held_time: float = starts_at(NAN)  # for which traction has held the speed of a drag, s
+    track_brake_energy: float = starts_at(NAN)  # that the track brake turned into heat, where there is one, J
+    track_brake_time: float = starts_at(NAN)  # for which it acted, s
+    track_brake_time_beside: float = starts_at(NAN)  # the longest of other cars of its train, s
+    fault_time: float = starts_at(NAN)  # first cycle with a fault while the train moves, s
+    reference_excess: float = starts_at(NAN)  # largest since then, of the controller's estimate, m/s
+    reference_distance: float = starts_at(NAN)  # shortest at any slide that is kept, of a car alone, m
+    has_diagnosis: float = starts_at(NAN)  # 1 where the controller can report something
 
 
 class WheelsetMeasures(Record):
     """Measures of one wheelset; slides are shares of the train's speed."""
 
-    wheel_speed: float  # circumferential, last sample, m/s
+    wheel_speed: float = starts_at(NAN)  # circumferential, last sample, m/s
     slow_time: Annotated[MutableSequence[float], SLOW_TIMES]  # below each share of the train's speed, s
-    slide: float  # last sample, train moving
-    maximum_slide: float  # train moving
+    slide: float = starts_at(0.0)  # last sample, train moving
+    maximum_slide: float = starts_at(0.0)  # train moving
     maximum_slide_above: Annotated[MutableSequence[float], SPEED_CLASSES]  # train faster than 0, 10, .. km/h
-    first_sliding_time: float  # s
-    sliding: float  # 1 while it slides
-    sliding_duration: float  # s
-    slid_distance: float  # run while it slides, m
-    contact_energy: float  # turned into heat in its contacts while it slides, J
-    contact_loss: float  # until the last sample, sliding or not, J
-    rail_work: float  # of the rail on it until the last sample, J
-    exploited_work: float  # of the rail on it while the rail limits the brake, J
-    available_work: float  # that the rail could have done meanwhile, J
-    adhesion_utilisation: float  # share of the two over the whole stop
-    locked_time: float  # s
-    longest_lock: float  # s
-    lock: float  # length of the lock that lasts at present, s
-    valve_actuations: float  # openings of the vent that also closed, or last to the end
-    venting: float  # 1 while the vent is commanded open
-    maximum_clamping_force: float  # of one caliper, N
-    air_vented: float  # kg
-    dynamic_energy: float  # taken by the dynamic brake, where there is one, J
-    sand_laid: float  # by its sander, where the car has any, kg
-    sand_in_30_s: float  # most that it laid within 30 s, kg
-    longest_sanding: float  # time for which it laid sand without a break, s
-    pressure_saturation: float  # time for which its pressure sensor is limited by its range, s
-    loadcell_saturation: float  # the same of the loadcells of its caliper, s
-    maximum_disc_temperature: float  # of the friction surface, where modelled, K
-    faulty: float  # 1 once one of its parts has had a fault
-    release: float  # time without brake force that lasts at present, s
-    longest_release: float  # while its speed sensor was faulty, s
-    # core.measures.monitoring
-    deviation: float  # time for which its shown speed deviates at present without a report, s
-    deviation_reported: float  # 1 once that deviation is reported
-    longest_deviation: float  # without a report, s
-    unfilled: float  # time without a command to fill that lasts at present, s
-    longest_unfilled: float  # s
-    falsely_reported: float  # 1 once it is reported without a fault, a lock or a deviation
-    report_delay: float  # from its first fault to its report, or the last sample, s
-    fault_reported: float  # 1 once it is reported since then
-    required_delay: float  # the same since its first fault of a kind that is to be reported, s
-    required_reported: float
+    first_sliding_time: float = starts_at(NAN)  # s
+    sliding: float = starts_at(0.0)  # 1 while it slides
+    sliding_duration: float = starts_at(0.0)  # s
+    slid_distance: float = starts_at(0.0)  # run while it slides, m
+    contact_energy: float = starts_at(0.0)  # turned into heat in its contacts while it slides, J
+    contact_loss: float = starts_at(0.0)  # until the last sample, sliding or not, J
+    rail_work: float = starts_at(0.0)  # of the rail on it until the last sample, J
+    exploited_work: float = starts_at(0.0)  # of the rail on it while the rail limits the brake, J
+    available_work: float = starts_at(0.0)  # that the rail could have done meanwhile, J
+    adhesion_utilisation: float = starts_at(NAN)  # share of the two over the whole stop
+    locked_time: float = starts_at(0.0)  # s
+    longest_lock: float = starts_at(0.0)  # s
+    lock: float = starts_at(0.0)  # length of the lock that lasts at present, s
+    valve_actuations: float = starts_at(0.0)  # openings of the vent that also closed, or last to the end
+    venting: float = starts_at(0.0)  # 1 while the vent is commanded open
+    maximum_clamping_force: float = starts_at(0.0)  # of one caliper, N
+    air_vented: float = starts_at(NAN)  # kg
+    dynamic_energy: float = starts_at(NAN)  # taken by the dynamic brake, where there is one, J
+    sand_laid: float = starts_at(NAN)  # by its sander, where the car has any, kg
+    sand_in_30_s: float = starts_at(NAN)  # most that it laid within 30 s, kg
+    longest_sanding: float = starts_at(NAN)  # time for which it laid sand without a break, s
+    pressure_saturation: float = starts_at(0.0)  # for which its sensor is limited by its range, s
+    loadcell_saturation: float = starts_at(0.0)  # the same of the loadcells of its caliper, s
+    maximum_disc_temperature: float = starts_at(NAN)  # of the friction surface, where modelled, K
+    faulty: float = starts_at(0.0)  # 1 once one of its parts has had a fault
+    release: float = starts_at(0.0)  # time without brake force that lasts at present, s
+    longest_release: float = starts_at(NAN)  # while its speed sensor was faulty, s
+    # What a controller reports of it, and for how long it keeps the brake from it.
+    deviation: float = starts_at(0.0)  # at present, of its shown speed, without a report, s
+    deviation_reported: float = starts_at(0.0)  # 1 once that deviation is reported
+    longest_deviation: float = starts_at(NAN)  # without a report, s
+    unfilled: float = starts_at(0.0)  # time without a command to fill that lasts at present, s
+    longest_unfilled: float = starts_at(NAN)  # s
+    falsely_reported: float = starts_at(0.0)  # 1 once it is reported without a fault, a lock or a deviation
+    report_delay: float = starts_at(NAN)  # from its first fault to its report, or the last sample, s
+    fault_reported: float = starts_at(0.0)  # 1 once it is reported since then
+    required_delay: float = starts_at(NAN)  # since its first fault that is to be reported, s
+    required_reported: float = starts_at(0.0)
 
 
 class MeasureDefinition(Record):

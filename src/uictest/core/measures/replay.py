@@ -9,16 +9,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.measures.contact import begin_contact, begin_utilisation
-from uictest.core.measures.layouts import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.core.measures.train import (
-    begin_build_up,
-    begin_train,
-    begin_window,
-    keep_window,
-    note_standstill,
-    observe_train,
-)
+from uictest.core.measures.samples import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures.train import begin_train, begin_window, keep_window, note_standstill, observe_train
 from uictest.core.measures.wheelset import begin_slides, begin_slow_times, begin_wheelset, keep_slow_times
 from uictest.core.physics import FILL, VENT
 
@@ -29,7 +21,7 @@ Faults = tuple[Array, Array, Array, Array]
 speed sensor has one, and whether it has had one that is to be reported, shape (n, 4)."""
 FAULT_COLUMNS: Final = 13
 Cell = tuple[str, int, int | None]
-"""A number in the records: field, number of the wheelset or 0 for the train, place where the field is a
+"""A number in the records: field, number of the wheelset or 0 for the train, index where the field is a
 table."""
 _WHEELSETS: Final = (1, 2, 3, 4)
 _WHEELS: Final = 2.0
@@ -146,15 +138,12 @@ class Replay:
         self.wheelsets: Any = records["wheelsets"][0].view(np.recarray)
         self.numbers: Array = records.view(np.float64)
         time, distance, speed, reservoir, line, *_ = self.samples.train[0].tolist()
-        begin_train(self.train, time, distance, speed, reservoir)
+        begin_train(self.train, time, distance, speed, reservoir, commanded_pressure, line)
         self.train.has_diagnosis = 1.0 if np.isfinite(self.samples.train[:, 7]).any() else nan
-        begin_build_up(self.train, commanded_pressure, line)
-        begin_utilisation(self.train)
         begin_window(self.train)
         begin_slow_times(self.train, self.wheelsets)
         for wheelset in self.wheelsets:
             begin_wheelset(wheelset)
-            begin_contact(wheelset)
             begin_slides(wheelset)
 
     def stop_at(self, time: float, distance: float) -> None:
@@ -167,13 +156,13 @@ class Replay:
 
     def numbers_at(self, cells: Sequence[Cell]) -> list[float]:
         """Return numbers in the records as they are now."""
-        values: list[float] = self.numbers[[place_of(cell) for cell in cells]].tolist()
+        values: list[float] = self.numbers[[index_of(cell) for cell in cells]].tolist()
         return values
 
 
-def place_of(cell: Cell) -> int:
+def index_of(cell: Cell) -> int:
     """Return where a number of the records lies among :attr:`Replay.numbers`."""
-    name, n, place = cell
+    name, n, index = cell
     layout: Any = WHEELSET_MEASURES if n else STOP_MEASURES
     start = STOP_MEASURES.itemsize + (n - 1) * WHEELSET_MEASURES.itemsize if n else 0
-    return int(start + layout.fields[name][1]) // _NUMBER + (place or 0)
+    return int(start + layout.fields[name][1]) // _NUMBER + (index or 0)

@@ -6,48 +6,41 @@ a further T_increase. A WSP valve lets air out of its tank only, so that dry and
 their line pressure nearly alike.
 """
 
-from uictest.core.measures.records import WINDOW_SECONDS, MeasureDefinition, StopMeasures
-from uictest.core.physics import clamp, maximum, minimum, select
+from collections.abc import Sequence
 
-NAN, INFINITY = float("nan"), float("inf")
+from uictest.core.measures.records import WINDOW_SECONDS, MeasureDefinition, StopMeasures, WheelsetMeasures
+from uictest.core.physics import clamp, maximum, minimum, select
+from uictest.core.record import FieldStarter
+
+NAN = float("nan")
+
+
+_start = FieldStarter(StopMeasures)
 
 
 def begin_train(
-    measures: StopMeasures, time: float, distance: float, speed: float, reservoir_pressure: float
+    measures: StopMeasures,
+    time: float,
+    distance: float,
+    speed: float,
+    reservoir_pressure: float,
+    commanded_pressure: float,
+    line_pressure: float,
 ) -> None:
-    """Start the measures with the first sample (s, m, m/s, Pa gauge)."""
+    """Start the measures that are one number with the first sample (s, m, m/s, Pa gauge).
+
+    `commanded_pressure` is that of the brake line, gauge, Pa.
+    """
+    _start(measures)
     measures.initial_speed = speed
-    measures.stopped = 0.0
-    measures.braking_time = NAN
-    measures.braking_distance = NAN
     measures.previous_time = time
     measures.previous_speed = speed
     measures.end_time = time
     measures.end_distance = distance
     measures.end_speed = speed
-    measures.minimum_deceleration = NAN
-    measures.maximum_deceleration = NAN
-    measures.filtered_deceleration = 0.0
-    measures.sliding_time = NAN
-    measures.sliding_wheelset = NAN
     measures.reservoir_minimum_pressure = reservoir_pressure
-    measures.reservoir_margin = INFINITY
-    measures.air_consumed = NAN
-    measures.track_brake_energy = NAN
-    measures.track_brake_time = NAN
-    measures.track_brake_time_beside = NAN
-    measures.energy_residual = NAN
-    measures.air_residual = NAN
-    measures.air_energy_residual = NAN
-    measures.line_saturation = 0.0
-    measures.saturation_time = NAN
-    measures.compensation_misfit = NAN
-    measures.held_time = NAN
-    measures.samples = 1.0
-    measures.fault_time = NAN
-    measures.reference_excess = NAN
-    measures.reference_distance = NAN
-    measures.has_diagnosis = NAN
+    measures.commanded_pressure = commanded_pressure
+    measures.line_pressure = line_pressure
 
 
 def begin_window(measures: StopMeasures) -> None:
@@ -131,17 +124,6 @@ def _observe_deceleration(
     measures.minimum_deceleration = select(developed, lowest, measures.minimum_deceleration)
 
 
-def begin_build_up(measures: StopMeasures, commanded_pressure: float, line_pressure: float) -> None:
-    """Start with the first sample: pressure commanded and of the brake line, gauge, Pa."""
-    measures.commanded_pressure = commanded_pressure
-    measures.line_pressure = line_pressure
-    measures.rise_time = NAN
-    measures.rise_distance = NAN
-    measures.rise_speed = NAN
-    measures.build_up_time = NAN
-    measures.build_up_distance = NAN
-
-
 def observe_build_up(
     measures: StopMeasures,
     definition: MeasureDefinition,
@@ -158,15 +140,15 @@ def observe_build_up(
     """
     rising = definition.rising_share * measures.commanded_pressure
     developed = definition.developed_share * measures.commanded_pressure
-    at, place, rate = _instant(measures, time, distance, speed, line_pressure, rising)
+    at, position, rate = _instant(measures, time, distance, speed, line_pressure, rising)
     rises = line_pressure >= rising
     known = measures.rise_time >= 0.0  # false for the NaN before
     measures.rise_time = select(known, measures.rise_time, select(rises, at, NAN))
-    measures.rise_distance = select(known, measures.rise_distance, select(rises, place, NAN))
+    measures.rise_distance = select(known, measures.rise_distance, select(rises, position, NAN))
     measures.rise_speed = select(known, measures.rise_speed, select(rises, rate, NAN))
-    at, place, rate = _instant(measures, time, distance, speed, line_pressure, developed)
+    at, position, rate = _instant(measures, time, distance, speed, line_pressure, developed)
     increase = at - measures.rise_time
-    midway = 0.5 * (measures.rise_distance + place) + 0.125 * increase * (measures.rise_speed - rate)
+    midway = 0.5 * (measures.rise_distance + position) + 0.125 * increase * (measures.rise_speed - rate)
     develops = line_pressure >= developed
     known = measures.build_up_time >= 0.0
     middle = 0.5 * (measures.rise_time + at)
@@ -186,3 +168,25 @@ def _instant(
         measures.end_distance + share * (distance - measures.end_distance),
         measures.end_speed + share * (speed - measures.end_speed),
     )
+
+
+def close_contacts(
+    measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures], mass: float
+) -> None:
+    """Relate the work of the rail to what it could have done, and to the mass of the train in kg.
+
+    Deceleration of a bogie: work of the rail on its two wheelsets over mass and distance of the train.
+    """
+    measures.adhesion_utilisation = _share(measures.exploited_work, measures.available_work)
+    for i in range(4):
+        wheelset = wheelset_measures[i]
+        wheelset.adhesion_utilisation = _share(wheelset.exploited_work, wheelset.available_work)
+    leading = wheelset_measures[0].rail_work + wheelset_measures[1].rail_work
+    trailing = wheelset_measures[2].rail_work + wheelset_measures[3].rail_work
+    inertia = mass * measures.end_distance
+    measures.deceleration_bogie_1 = _share(leading, inertia)
+    measures.deceleration_bogie_2 = _share(trailing, inertia)
+
+
+def _share(part: float, whole: float) -> float:
+    return part / whole if whole > 0.0 else NAN

@@ -1,14 +1,16 @@
-"""Measures of one wheelset: slide, locks, valve actuations, clamping force, disc, reaction to faults.
+"""Measures of one wheelset: slide, locks, valve actuations, clamping force, disc; contacts; reports.
 
 The time that a wheelset turns slower than a share of the train's speed is kept per band of train speed: row
 `k` of a table holds the times before the train first ran at or below `END_SPEEDS[k]`, but not yet those
 before it did at `END_SPEEDS[k + 1]`. The time until the train is down to one of these speeds is the sum of
 that row and all above. A row has one time per share of `SLOW_SHARES`.
+
+What a controller reports is observed once per controller cycle, after the train, only where a controller can
+report or a fault may be to be reported.
 """
 
 from collections.abc import Sequence
 
-from uictest.core.measures.monitoring import begin_monitoring
 from uictest.core.measures.records import (
     END_SPEEDS,
     SLOW_SHARES,
@@ -19,6 +21,7 @@ from uictest.core.measures.records import (
     WheelsetMeasures,
 )
 from uictest.core.physics import maximum, minimum, select
+from uictest.core.record import FieldStarter
 
 NAN = float("nan")
 _CLASSES_PER_SPEED = 3.6 / 10.0
@@ -26,32 +29,8 @@ _CLASSES_PER_SPEED = 3.6 / 10.0
 _SPEEDS, _SHARES, _WHEELSETS = len(END_SPEEDS), len(SLOW_SHARES), 4
 
 
-def begin_wheelset(measures: WheelsetMeasures) -> None:
-    """Start the measures of a wheelset that rolls with its brake released."""
-    measures.wheel_speed = NAN
-    measures.maximum_slide = 0.0
-    measures.slide = 0.0
-    measures.first_sliding_time = NAN
-    measures.sliding = 0.0
-    measures.sliding_duration = 0.0
-    measures.locked_time = 0.0
-    measures.longest_lock = 0.0
-    measures.lock = 0.0
-    measures.valve_actuations = 0.0
-    measures.venting = 0.0
-    measures.maximum_clamping_force = 0.0
-    measures.air_vented = NAN
-    measures.pressure_saturation = 0.0
-    measures.loadcell_saturation = 0.0
-    measures.maximum_disc_temperature = NAN
-    measures.dynamic_energy = NAN
-    measures.sand_laid = NAN
-    measures.sand_in_30_s = NAN
-    measures.longest_sanding = NAN
-    measures.faulty = 0.0
-    measures.release = 0.0
-    measures.longest_release = NAN
-    begin_monitoring(measures)
+begin_wheelset = FieldStarter(WheelsetMeasures)
+"""Start the measures that are one number, of a wheelset that rolls with its brake released."""
 
 
 def begin_slides(measures: WheelsetMeasures) -> None:
@@ -249,3 +228,123 @@ def observe_reaction(
     released = clamping_force < definition.released_share * largest_force
     measures.release = measures.release + (train.end_time - train.previous_time) if released else 0.0
     measures.longest_release = maximum(measures.longest_release, measures.release)
+
+
+def observe_contact(
+    measures: WheelsetMeasures,
+    train: StopMeasures,
+    definition: MeasureDefinition,
+    time: float,
+    speed: float,
+    pressure: float,
+    line_pressure: float,
+    rail_work: float,
+    contact_loss: float,
+    highest_force: float,
+) -> None:
+    """Observe the next sample of a wheelset's contacts, after its slide and before the train's sample.
+
+    What the rail gives counts against what it could give while the brake demands more: while the wheelset
+    slides and, once it has slid, while the WSP holds its pressure below that of the brake line.
+
+    Args:
+        measures: measures of the wheelset.
+        train: measures of the stop; its last sample gives the distance run.
+        definition: how samples become measures.
+        time: since the brake command, s.
+        speed: of the train, m/s.
+        pressure: in the wheelset's tank, gauge, Pa.
+        line_pressure: of the brake line, gauge, Pa.
+        rail_work: of the rail on the wheelset since the brake command, against its motion, J.
+        contact_loss: energy turned into heat in its contacts since then, J.
+        highest_force: that both contacts could transmit, N.
+    """
+    slides = measures.sliding > 0.0
+    # Unknown, as NaN, where the last sample of a recording lies in a gap.
+    before = select(train.end_speed >= 0.0, train.end_speed, speed)
+    run = 0.5 * (before + speed) * (time - train.end_time)
+    measures.slid_distance += select(slides, run, 0.0)
+    measures.contact_energy += select(slides, contact_loss - measures.contact_loss, 0.0)
+    has_slid = (measures.first_sliding_time <= time) & (speed > definition.moving_speed)
+    limited = slides | (has_slid & (pressure < definition.reduced_share * line_pressure))
+    exploited = select(limited, rail_work - measures.rail_work, 0.0)
+    available = select(limited, highest_force * run, 0.0)
+    measures.exploited_work += exploited
+    measures.available_work += available
+    train.exploited_work += exploited
+    train.available_work += available
+    measures.rail_work = rail_work
+    measures.contact_loss = contact_loss
+
+
+_REPORTS_OF_FIRST = 0x01010101
+
+
+def reports_wheelset(diagnosis: int, i: int) -> float:
+    """Return 1 where a diagnosis reports wheelset ``i`` (0 to 3): by bit i, 8 + i, 16 + i or 24 + i."""
+    return 1.0 if (diagnosis >> i) & _REPORTS_OF_FIRST else 0.0
+
+
+def observe_monitoring(
+    measures: WheelsetMeasures,
+    train: StopMeasures,
+    definition: MeasureDefinition,
+    reported: float,
+    faulty: float,
+    report_required: float,
+    shown_speed: float,
+    fills: float,
+) -> None:
+    """Observe one wheelset in one cycle, after the train.
+
+    Report, shown speed and command are of the train's last sample but one, from which the controller decided.
+    The interval since then counts as unreported unless the report came at once.
+
+    Args:
+        measures: measures of the wheelset.
+        train: measures of the stop; its last two samples give the interval.
+        definition: how samples become measures.
+        reported: 1 while the diagnosis reports the wheelset.
+        faulty: 1 once one of its parts has had a fault.
+        report_required: 1 once it has had one of a kind that is to be reported.
+        shown_speed: of the wheelset as its sensor shows it, m/s; NaN, in a gap of a recording, deviates from
+            nothing.
+        fills: 1 while its valve is commanded to fill.
+    """
+    interval = train.end_time - train.previous_time
+    speed = train.previous_speed
+    if not speed > definition.moving_speed:
+        measures.deviation = 0.0
+        measures.unfilled = 0.0
+        return
+    allowed = definition.monitored_speed + definition.monitored_share * speed
+    _observe_deviation(measures, abs(shown_speed - speed) > allowed, reported, interval)
+    measures.unfilled = 0.0 if fills > 0.0 else measures.unfilled + interval
+    measures.longest_unfilled = maximum(measures.longest_unfilled, measures.unfilled)
+    stands_out = measures.longest_deviation >= 0.0 or measures.locked_time > 0.0
+    if reported > 0.0 and faulty == 0.0 and not stands_out:
+        measures.falsely_reported = 1.0
+    if faulty > 0.0 and measures.fault_reported == 0.0:
+        measures.fault_reported = reported
+        measures.report_delay = _delayed(measures.report_delay, reported, interval)
+    if report_required > 0.0 and measures.required_reported == 0.0:
+        measures.required_reported = reported
+        measures.required_delay = _delayed(measures.required_delay, reported, interval)
+
+
+def _observe_deviation(measures: WheelsetMeasures, deviates: bool, reported: float, interval: float) -> None:
+    """Count the time at a stretch for which a wheelset deviates and no report has said so."""
+    if not deviates:
+        measures.deviation = 0.0
+        measures.deviation_reported = 0.0
+        return
+    measures.deviation_reported = maximum(measures.deviation_reported, reported)
+    if measures.deviation_reported == 0.0:
+        measures.deviation += interval
+    # Before the first deviation this is NaN; the maximum then gives the other number.
+    measures.longest_deviation = maximum(measures.longest_deviation, measures.deviation)
+
+
+def _delayed(delay: float, reported: float, interval: float) -> float:
+    """Return a delay, NaN before its beginning, after one more interval with or without the report."""
+    return maximum(delay, 0.0) + (0.0 if reported > 0.0 else interval)

@@ -1,16 +1,26 @@
 from .air import (
+    FILL as FILL,
+    HOLD as HOLD,
+    LONGEST_DELAY_CYCLES as LONGEST_DELAY_CYCLES,
+    MOST_COMMANDS as MOST_COMMANDS,
     REFERENCE_DENSITY as REFERENCE_DENSITY,
     REFERENCE_TEMPERATURE as REFERENCE_TEMPERATURE,
+    VENT as VENT,
     air_changes as air_changes,
     amount_gained as amount_gained,
     coldness as coldness,
+    command_before as command_before,
     compressor_running as compressor_running,
+    demanded_pressure as demanded_pressure,
     enthalpy as enthalpy,
     isothermal_pressure as isothermal_pressure,
     mass_flow as mass_flow,
     orifice_law as orifice_law,
     pressure_volume_after as pressure_volume_after,
     reduced_flow as reduced_flow,
+    relay_opening as relay_opening,
+    remember as remember,
+    travel as travel,
     travel_after as travel_after,
 )
 from .arithmetic import (
@@ -22,6 +32,25 @@ from .arithmetic import (
     select as select,
     sqrt as sqrt,
 )
+from .brakes import (
+    MODES as MODES,
+    MOST_PAD_POINTS as MOST_PAD_POINTS,
+    bulk_change as bulk_change,
+    cooled_heat as cooled_heat,
+    dynamic_force as dynamic_force,
+    friction_pressure as friction_pressure,
+    held_excess as held_excess,
+    held_mode as held_mode,
+    held_rest as held_rest,
+    loop_width as loop_width,
+    mode_after as mode_after,
+    mode_relaxation as mode_relaxation,
+    quotient_factor as quotient_factor,
+    quotient_scale as quotient_scale,
+    relaxed_share as relaxed_share,
+    torque as torque,
+    track_brake_force as track_brake_force,
+)
 from .caliper import (
     clamping_force as clamping_force,
     force_after as force_after,
@@ -32,42 +61,20 @@ from .caliper import (
     stiffnesses as stiffnesses,
     stroke_after as stroke_after,
 )
-from .disc_brake import (
-    MODES as MODES,
-    MOST_PAD_POINTS as MOST_PAD_POINTS,
-    bulk_change as bulk_change,
-    cooled_heat as cooled_heat,
-    held_mode as held_mode,
-    held_rest as held_rest,
-    mode_after as mode_after,
-    mode_relaxation as mode_relaxation,
-    quotient_factor as quotient_factor,
-    quotient_scale as quotient_scale,
-    relaxed_share as relaxed_share,
-    torque as torque,
-)
-from .dynamic_brake import (
-    dynamic_force as dynamic_force,
-    friction_pressure as friction_pressure,
-    held_excess as held_excess,
-    loop_width as loop_width,
-)
-from .polach import (
+from .rail import (
     FITTED_TERMS as FITTED_TERMS,
+    MOST_SAND_POINTS as MOST_SAND_POINTS,
+    cleaned_friction as cleaned_friction,
+    cleaned_share as cleaned_share,
     contact_stiffness as contact_stiffness,
     creep_force as creep_force,
     force_and_slope as force_and_slope,
     friction_limit as friction_limit,
     highest_creep_force as highest_creep_force,
-    stress_gradient as stress_gradient,
-)
-from .rail import (
-    MOST_SAND_POINTS as MOST_SAND_POINTS,
-    cleaned_friction as cleaned_friction,
-    cleaned_share as cleaned_share,
     interpolated as interpolated,
     log_normal_factor as log_normal_factor,
     share_left_behind as share_left_behind,
+    stress_gradient as stress_gradient,
 )
 from .sensors import (
     analogue_reading as analogue_reading,
@@ -81,19 +88,6 @@ from .sensors import (
     threefry as threefry,
     time_since as time_since,
     uniform as uniform,
-)
-from .track_brake import track_brake_force as track_brake_force
-from .valves import (
-    FILL as FILL,
-    HOLD as HOLD,
-    LONGEST_DELAY_CYCLES as LONGEST_DELAY_CYCLES,
-    MOST_COMMANDS as MOST_COMMANDS,
-    VENT as VENT,
-    command_before as command_before,
-    demanded_pressure as demanded_pressure,
-    relay_opening as relay_opening,
-    remember as remember,
-    travel as travel,
 )
 from .vehicle import (
     SLOWEST_CREEP as SLOWEST_CREEP,

@@ -110,15 +110,15 @@ def passing_rate(turns: float, eccentricity: float) -> float:
     return fma(eccentricity, sine_of_turns(turns), 1.0)
 
 
-def last_tooth(place: float, teeth: float, missing: float) -> tuple[float, float]:
+def last_tooth(passed: float, teeth: float, missing: float) -> tuple[float, float]:
     """Return what a sensor has counted of a pole wheel, and the place of the last tooth that it saw.
 
     Args:
-        place: pitches that have passed, whole ones at teeth or, in the gap, where teeth are missing.
+        passed: pitches that have passed, whole ones at teeth or, in the gap, where teeth are missing.
         teeth: pitches of a turn.
         missing: teeth missing in the one gap, at the end of each turn; less than ``teeth``.
     """
-    pitches = floor(place)
+    pitches = floor(passed)
     turn = floor(pitches / teeth)
     within = fma(-turn, teeth, pitches)
     seen = within - maximum(within - (teeth - missing - 1.0), 0.0)

@@ -1,4 +1,4 @@
-"""Laws of the rail that sliding changes: one module in `laws` states the numbers and the equations of one."""
+"""Laws of the rail that sliding changes: a module here states the numbers and the equations of one."""
 
 import lazy_loader
 

@@ -1,12 +1,16 @@
-"""What a law of the rail declares, the laws that there are, and the choice among them in the model."""
+"""What a law of the rail declares, the laws that there are, and the choice among them in the model.
+
+The default is a mixture: a rail whose cleaned share counts as it is, so that friction is the mean of that of
+the rail as found and that of the clean one.
+"""
 
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import Any, Final, NamedTuple
 
+from uictest.core import rail_laws
 from uictest.core.physics import cleaned_share
-from uictest.core.rail_laws import laws
 
 MOST_NUMBERS: Final = 4
 """Numbers of its own that a law may have."""
@@ -71,16 +75,25 @@ def cleaned_by_energy(
     return cleaned_share(share, loss, distance, response, decay)
 
 
+def _share_itself(share: float, numbers: Sequence[float]) -> float:
+    return share
+
+
 def _laws() -> dict[str, RailLaw]:
-    """Return the law of every module in :mod:`uictest.core.rail_laws.laws` by its name, the default first."""
-    modules = [import_module(f"{laws.__name__}.{each.name}") for each in pkgutil.iter_modules(laws.__path__)]
-    found = {module.LAW.name: module.LAW for module in modules}
-    return {DEFAULT: found.pop(DEFAULT), **found}
+    """Return the default law, and that of every other module of this room, by their names."""
+    mixture = RailLaw(
+        name=DEFAULT,
+        description="Friction is in proportion to the cleaned share.",
+        own_share=cleaned_by_energy,
+        clean_part=_share_itself,
+    )
+    names = [module.name for module in pkgutil.iter_modules(rail_laws.__path__) if module.name != "law"]
+    laws = [mixture, *(import_module(f"{rail_laws.__name__}.{name}").LAW for name in names)]
+    return {law.name: law for law in laws}
 
 
 LAWS: Final = _laws()
-"""Every law by its name; its place is its number in the model."""
-
+"""Every law by its name; its index is its number in the model."""
 
 _OF_NUMBER: Final = tuple(LAWS.values())
 

@@ -1,3 +1,8 @@
+from .formats.parquet import (
+    channels_bytes as channels_bytes,
+    parquet_bytes as parquet_bytes,
+    read_parquet as read_parquet,
+)
 from .instants import (
     at_instants as at_instants,
     coarser as coarser,
@@ -6,11 +11,6 @@ from .instants import (
     mean_interval as mean_interval,
     rows_at as rows_at,
     usual_interval as usual_interval,
-)
-from .parquet import (
-    channels_bytes as channels_bytes,
-    parquet_bytes as parquet_bytes,
-    read_parquet as read_parquet,
 )
 from .plausibility import (
     LARGEST as LARGEST,

@@ -44,7 +44,7 @@ def at_instants(
 ) -> Array:
     """Return what a channel is at some instants; NaN before its first sample and after its last.
 
-    `time` (or place) rises. A sample stands until the next if the channel `holds`, as a state does; else a
+    `time` (or position) rises. A sample stands until the next if the channel `holds`, as a state does; else a
     line leads to that. NaN stays NaN, and so does what lies beside it. `gaps`: intervals between neighbouring
     samples in which the channel is unknown.
     """
@@ -62,11 +62,11 @@ def common_instants(first: Array, second: Array) -> Array:
     These are the samples of the coarser one: read where only the finer one has samples, the other would lack
     what it did not sample. Of two that are equally coarse they are the samples of both.
     """
-    places = coarser(first, second)
-    if places is None:
-        places = np.union1d(first, second)
-        places = places[np.diff(places, prepend=-np.inf) > min(slack(first), slack(second))]
-    return places[covers(first, places) & covers(second, places)]
+    instants = coarser(first, second)
+    if instants is None:
+        instants = np.union1d(first, second)
+        instants = instants[np.diff(instants, prepend=-np.inf) > min(slack(first), slack(second))]
+    return instants[covers(first, instants) & covers(second, instants)]
 
 
 def coarser(first: Array, second: Array) -> Array | None:

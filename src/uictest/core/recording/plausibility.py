@@ -81,7 +81,7 @@ def implausible_unit(
     if limit is None or not len(numbers) or np.mean(numbers > limit.value) <= faulty:
         return None
     largest = float(numbers.max())
-    likely = next((each for each, size in sizes.items() if largest / sizes[unit] * size <= limit.value), "")
+    likely = next((other for other, size in sizes.items() if largest / sizes[unit] * size <= limit.value), "")
     return Implausible(
         f"reaches {largest / sizes[unit]:.4g} {unit}; at most {limit.text} is plausible", likely
     )
@@ -97,9 +97,9 @@ def implausible_time(
     rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
     if not rising or _plausible(time, 1.0, longest):
         return None
-    fitting = [each for each, size in sizes.items() if _plausible(time, size / sizes[unit], longest)]
+    fitting = [other for other, size in sizes.items() if _plausible(time, size / sizes[unit], longest)]
     first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], usual_interval(time) / sizes[unit]
-    likely = min(fitting, key=lambda each: abs(math.log(step * sizes[each] / _USUAL_INTERVAL)), default="")
+    likely = min(fitting, key=lambda other: abs(math.log(step * sizes[other] / _USUAL_INTERVAL)), default="")
     return Implausible(
         f"runs from {first:.6g} to {last:.6g} {unit} with a sample every {step:.4g} {unit};"
         f" {SHORTEST_INTERVAL.text} to {LONGEST_INTERVAL.text} between samples and at most"

@@ -22,87 +22,6 @@ if TYPE_CHECKING:
     from uictest.core.recording.formats import Dialect
 
 
-def frame_of(
-    channels: Mapping[str, NDArray[Any]], units: Mapping[str, str], metadata: Mapping[str, str]
-) -> pd.DataFrame:
-    """Return one column per channel over the first, which is the time; units and facts in `attrs`."""
-    import pandas as pd
-
-    time, *others = channels
-    index = pd.Index(channels[time], name=time)
-    frame = pd.DataFrame({name: channels[name] for name in others}, index=index)
-    frame.attrs = {"units": dict(units), "metadata": dict(metadata)}
-    return frame
-
-
-Channels = Mapping[str, NDArray[Any]]
-
-DEFAULT: Final = ("speed", "wheel_speed_*", "slide_*", "cylinder_pressure_*", "clamping_force_*")
-"""What a figure shows unless other channels are named."""
-
-_COLOURS: Final = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7")
-"""Of the train, then of each wheelset: told apart by colour-blind eyes (Okabe and Ito, 2008)."""
-_DASHES: Final = ("solid", "solid", "dash", "dot", "dashdot")
-_PANEL: Final = 190
-"""Height of a panel in pixels; chosen."""
-_FRAME: Final = 110
-
-
-def figure_of(channels: Channels, units: Mapping[str, str], patterns: Sequence[str] | None) -> go.Figure:
-    """Return a figure of some channels.
-
-    Args:
-        channels: the first is the time, s.
-        units: of every channel.
-        patterns: names of channels, in which `*` stands for any characters; None: :data:`DEFAULT`.
-
-    Raises:
-        KeyError: a pattern names no channel.
-        MissingExtraError: plotly, of the extra `plot`, is not installed.
-
-    """
-    make_subplots = required_module("plotly.subplots", "plot").make_subplots
-
-    time, *others = channels
-    names = list(_chosen(others, patterns)) if patterns is not None else _recorded(channels, others)
-    panels = list(dict.fromkeys(units[name] for name in names))
-    figure = make_subplots(rows=max(len(panels), 1), shared_xaxes=True, vertical_spacing=0.04)
-    for name in names:
-        row = panels.index(units[name]) + 1
-        figure.add_scatter(
-            x=channels[time], y=channels[name], name=name, line=_line(name), row=row, col=1, mode="lines"
-        )
-    for row, unit in enumerate(panels, start=1):
-        figure.update_yaxes(title_text=unit, row=row, col=1)
-    figure.update_xaxes(title_text=f"{time}, {units[time]}", row=max(len(panels), 1), col=1)
-    figure.update_layout(height=_FRAME + _PANEL * max(len(panels), 1), hovermode="x unified")
-    return figure
-
-
-def _chosen(names: Sequence[str], patterns: Iterable[str]) -> Iterator[str]:
-    """Yield the channels of patterns, each once. Raises KeyError."""
-    seen: set[str] = set()
-    for pattern in patterns:
-        matching = [name for name in names if fnmatchcase(name, pattern)]
-        if not matching:
-            raise KeyError(f"no channel {pattern!r} in this recording of {', '.join(names)}")
-        yield from (name for name in matching if name not in seen)
-        seen.update(matching)
-
-
-def _recorded(channels: Channels, names: Sequence[str]) -> list[str]:
-    """Return the default channels that hold numbers; all channels of a recording that has none of them."""
-    default = [name for name in names if any(fnmatchcase(name, pattern) for pattern in DEFAULT)]
-    known = [name for name in default if np.isfinite(channels[name]).any()]
-    return known or list(names)
-
-
-def _line(name: str) -> dict[str, str]:
-    match = re.search(r"_([1-4])$", name)
-    place = int(match[1]) if match else 0
-    return {"color": _COLOURS[place], "dash": _DASHES[place]}
-
-
 TIME = "time"
 """Name of the first channel, in seconds."""
 
@@ -117,6 +36,17 @@ TRACK_BRAKES_BESIDE = "track_brakes_beside"
 
 ORIGIN = "origin"
 """Metadata key of what was recorded: a train, a test rig or a simulation."""
+
+
+DEFAULT: Final = ("speed", "wheel_speed_*", "slide_*", "cylinder_pressure_*", "clamping_force_*")
+"""What a figure shows unless other channels are named."""
+
+_COLOURS: Final = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7")
+"""Of the train, then of each wheelset: told apart by colour-blind eyes (Okabe and Ito, 2008)."""
+_DASHES: Final = ("solid", "solid", "dash", "dot", "dashdot")
+_PANEL: Final = 190
+"""Height of a panel in pixels; chosen."""
+_FRAME: Final = 110
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,7 +88,13 @@ class Recording:
 
     def frame(self) -> pd.DataFrame:
         """Return one column per channel, index `time` in s; `attrs["units"]` maps channels to units."""
-        return frame_of(self.channels, self.units, self.metadata)
+        import pandas as pd
+
+        time, *others = self.channels
+        index = pd.Index(self.channels[time], name=time)
+        frame = pd.DataFrame({name: self.channels[name] for name in others}, index=index)
+        frame.attrs = {"units": dict(self.units), "metadata": dict(self.metadata)}
+        return frame
 
     def plot(self, channels: Sequence[str] | None = None) -> go.Figure:
         """Return a plotly figure, one panel for each unit, over the time in s.
@@ -169,7 +105,42 @@ class Recording:
 
         Raises KeyError for a name that is no channel, MissingExtraError without the extra `plot`.
         """
-        return figure_of(self.channels, self.units, channels)
+        make_subplots = required_module("plotly.subplots", "plot").make_subplots
+
+        time, *others = self.channels
+        names = self._shown_by_default(others) if channels is None else list(_matching(others, channels))
+        panels = list(dict.fromkeys(self.units[name] for name in names))
+        figure = make_subplots(rows=max(len(panels), 1), shared_xaxes=True, vertical_spacing=0.04)
+        for name in names:
+            line, row = _line_of(name), panels.index(self.units[name]) + 1
+            figure.add_scatter(x=self[time], y=self[name], name=name, line=line, row=row, col=1, mode="lines")
+        for row, unit in enumerate(panels, start=1):
+            figure.update_yaxes(title_text=unit, row=row, col=1)
+        figure.update_xaxes(title_text=f"{time}, {self.units[time]}", row=max(len(panels), 1), col=1)
+        figure.update_layout(height=_FRAME + _PANEL * max(len(panels), 1), hovermode="x unified")
+        return figure
+
+    def _shown_by_default(self, names: Sequence[str]) -> list[str]:
+        """Return the default channels that hold numbers; all channels where there is none."""
+        default = [name for name in names if any(fnmatchcase(name, pattern) for pattern in DEFAULT)]
+        return [name for name in default if np.isfinite(self[name]).any()] or list(names)
+
+
+def _matching(names: Sequence[str], patterns: Iterable[str]) -> Iterator[str]:
+    """Yield the channels of patterns, each once. Raises KeyError."""
+    seen: set[str] = set()
+    for pattern in patterns:
+        matching = [name for name in names if fnmatchcase(name, pattern)]
+        if not matching:
+            raise KeyError(f"no channel {pattern!r} in this recording of {', '.join(names)}")
+        yield from (name for name in matching if name not in seen)
+        seen.update(matching)
+
+
+def _line_of(name: str) -> dict[str, str]:
+    match = re.search(r"_([1-4])$", name)
+    wheelset = int(match[1]) if match else 0
+    return {"color": _COLOURS[wheelset], "dash": _DASHES[wheelset]}
 
 
 def _check_shape(channels: dict[str, NDArray[Any]]) -> None:
@@ -225,7 +196,7 @@ class Group:
         time: the time axis in seconds, if the format has its own; else it is one of the channels.
         numbers: name of a channel of texts -> its samples that are numbers, NaN elsewhere; its texts are
             empty there.
-        first_texts: name of a channel that holds texts among numbers -> text -> its first place in the file.
+        first_texts: name of a channel that holds texts among numbers -> text -> where it first stands.
         first_row: of the samples of this piece, counted from zero in the file.
 
     """
@@ -292,20 +263,20 @@ def numbers_of(
     if texts.dtype.kind != "U" or numbers is None:
         return texts, []
     states = {**_TRUTH, **states} if states else states
-    distinct, places = np.unique(texts, return_inverse=True)
+    distinct, indices = np.unique(texts, return_inverse=True)
     of_states = np.array([states.get(text, np.nan) for text in distinct.tolist()], dtype=np.float64)
     strange = {text for text in distinct.tolist() if text and text not in states}
     in_order = [text for text in group.first_texts.get(name, {}) if text in strange]
-    return np.where(np.isnan(numbers), of_states[places], numbers), in_order or sorted(strange)
+    return np.where(np.isnan(numbers), of_states[indices], numbers), in_order or sorted(strange)
 
 
 def _numbers(group: Group, name: str) -> NDArray[Any]:
     """Return the samples of a channel, states as their numbers. Raises UnreadableError for other texts."""
     samples, strange = numbers_of(group, name, states_of(name))
     if strange:
-        place = group.first_texts.get(name, {}).get(strange[0], "")
+        location = group.first_texts.get(name, {}).get(strange[0], "")
         accepted = ", ".join(("numbers", *states_of(name)))
-        where = f", the first in {place}" if place else ""
+        where = f", the first in {location}" if location else ""
         raise UnreadableError(f"channel {name!r} contains texts{where}: {strange[0]!r}; accepted: {accepted}")
     return samples
 

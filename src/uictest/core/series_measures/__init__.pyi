@@ -1,15 +1,13 @@
 from .catalogue import SERIES_MEASURES as SERIES_MEASURES
-from .estimate import (
-    Estimate as Estimate,
-    Method as Method,
-    SeriesValue as SeriesValue,
-    mean_of as mean_of,
-    median_of as median_of,
-)
 from .measure import (
     CountedStop as CountedStop,
+    Estimate as Estimate,
+    Method as Method,
     Rail as Rail,
     SeriesMeasure as SeriesMeasure,
+    SeriesValue as SeriesValue,
     SpeedStops as SpeedStops,
+    mean_of as mean_of,
+    median_of as median_of,
     of_stop as of_stop,
 )

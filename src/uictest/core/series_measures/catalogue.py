@@ -13,13 +13,17 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
-from uictest.core.series_measures.estimate import Estimate, largest_of, mean_of, median_of, share_of
 from uictest.core.series_measures.measure import (
     CountedStop,
+    Estimate,
     SeriesMeasure,
+    largest_of,
     largest_of_wheelsets,
+    mean_of,
     median_and_worst,
+    median_of,
     of_stop,
+    share_of,
 )
 
 _BRAKING_DISTANCE = of_stop("corrected_distance_m")

@@ -1,24 +1,29 @@
-from .bounds import (
-    Bounds as Bounds,
-    Coverage as Coverage,
-    MissingData as MissingData,
-    bounds_of as bounds_of,
-)
-from .car_in_train import CarInTrain as CarInTrain, CouplerForces as CouplerForces
 from .case import (
-    JUDGED_KEYS as JUDGED_KEYS,
+    asks_for_rail as asks_for_rail,
     error_result as error_result,
     evaluate as evaluate,
     evaluate_simulated as evaluate_simulated,
     may_be_biased as may_be_biased,
+    with_rail as with_rail,
 )
-from .criterion_over_stops import OutcomeRule as OutcomeRule
-from .definitions import definition_texts as definition_texts
+from .decision import (
+    Bounds as Bounds,
+    Coverage as Coverage,
+    Decision as Decision,
+    MissingData as MissingData,
+    bounds_of as bounds_of,
+)
 from .effective_parts import (
-    EffectiveParts as EffectiveParts,
+    EffectivePart as EffectivePart,
+    Parameter as Parameter,
     Program as Program,
+    effective_parts as effective_parts,
+    parts_document as parts_document,
+    parts_of as parts_of,
+    parts_table as parts_table,
     program_in as program_in,
     program_of as program_of,
+    recorded_parts as recorded_parts,
 )
 from .firmness import (
     CalibratedDraws as CalibratedDraws,
@@ -41,44 +46,11 @@ from .json_values import (
 from .judgement import (
     Detail as Detail,
     by_reading as by_reading,
+    definition_texts as definition_texts,
     judge as judge,
+    verdict_of as verdict_of,
 )
-from .parameters import (
-    Deviation as Deviation,
-    DomainOfValidity as DomainOfValidity,
-    EffectivePart as EffectivePart,
-    Parameter as Parameter,
-    parts_document as parts_document,
-    parts_of as parts_of,
-    parts_table as parts_table,
-)
-from .rail_validity import asks_for_rail as asks_for_rail, with_rail as with_rail
-from .repeated_case import (
-    SimulatedRepeat as SimulatedRepeat,
-    evaluate_repeats as evaluate_repeats,
-)
-from .repeats import (
-    RepeatedStop as RepeatedStop,
-    Repeats as Repeats,
-    Spread as Spread,
-    column_medians as column_medians,
-    seeds_text as seeds_text,
-    spread_of as spread_of,
-)
-from .result import (
-    CaseResult as CaseResult,
-    NamedParts as NamedParts,
-    WrittenCaseResult as WrittenCaseResult,
-    narrowest_margin as narrowest_margin,
-)
-from .result_document import (
-    cases_document as cases_document,
-    cases_of as cases_of,
-    result_document as result_document,
-    results_of as results_of,
-    to_json as to_json,
-)
-from .statements import (
+from .outcome import (
     RailValidity as RailValidity,
     RequirementStatus as RequirementStatus,
     TestValidity as TestValidity,
@@ -91,6 +63,34 @@ from .statements import (
     requirements_of as requirements_of,
     validity_of as validity_of,
     why_no_test as why_no_test,
+)
+from .repeated_case import (
+    OutcomeRule as OutcomeRule,
+    SimulatedRepeat as SimulatedRepeat,
+    evaluate_repeats as evaluate_repeats,
+)
+from .repeats import (
+    RepeatedStop as RepeatedStop,
+    Repeats as Repeats,
+    Spread as Spread,
+    column_medians as column_medians,
+    seeds_text as seeds_text,
+    spread_of as spread_of,
+)
+from .result import (
+    CarInTrain as CarInTrain,
+    CaseResult as CaseResult,
+    CouplerForces as CouplerForces,
+    Deviation as Deviation,
+    DomainOfValidity as DomainOfValidity,
+    NamedParts as NamedParts,
+    WrittenCaseResult as WrittenCaseResult,
+    cases_document as cases_document,
+    cases_of as cases_of,
+    narrowest_margin as narrowest_margin,
+    result_document as result_document,
+    results_of as results_of,
+    to_json as to_json,
 )
 from .verdict import (
     AppliedDefinition as AppliedDefinition,

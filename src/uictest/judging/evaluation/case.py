@@ -17,44 +17,12 @@ from uictest.core.measures import (
     stop_column_values,
     wheelset_column_values,
 )
-from uictest.judging.evaluation.bounds import Coverage
-from uictest.judging.evaluation.car_in_train import CouplerForces, place_in_train
-from uictest.judging.evaluation.judgement import Detail, judge
-from uictest.judging.evaluation.result import CaseResult
-from uictest.judging.evaluation.rig_reasons import missed_deadlines
-from uictest.judging.evaluation.statements import outcome_of
+from uictest.judging.evaluation.decision import Coverage
+from uictest.judging.evaluation.judgement import Detail, judge, missed_deadlines
+from uictest.judging.evaluation.outcome import RailValidity, decided_by, outcome_of
+from uictest.judging.evaluation.result import CaseResult, CouplerForces, place_in_train
 from uictest.judging.evaluation.verdict import Verdict
 from uictest.plans import scenario
-
-JUDGED_KEYS = (
-    "initial_speed",
-    "brake.position",
-    "brake.command",
-    "rail.condition",
-    "rail.cleaning",
-    "rail.gradient",
-    "rig.topology",
-    "rig.wsp",
-    # what the reasons of failed checks of the rig name
-    "rig.caliper",
-    "rig.compensation_model",
-    "rig.sensors",
-    "brake.system.tank.volume",
-    "brake.system.wsp_valve",
-    "vehicle.wheelsets",
-    "simulation.maximum_duration",
-    "until",
-    "drag",
-    "faults",
-    "criteria",
-    "measures",
-    "record",
-    "expect",
-    "test_validity",
-    "requirements",
-    "test_case",
-)
-"""Keys of a scenario at or below which :func:`evaluate` reads; all else reaches it through the measures."""
 
 _FINITE_IN_STOPS: Final = (
     *("end_time", "end_distance", "end_speed"),
@@ -249,3 +217,36 @@ def _why_not_finite(measures: StopMeasures, names: list[str]) -> str:
         )
     listed = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
     return f"the simulation gives no finite {listed}: the numbers of the scenario do not fit together"
+
+
+def asks_for_rail(case: scenario.Case, result: CaseResult) -> bool:
+    """Return whether the rail is to be looked at: it decides, or the stop with its WSP is no test.
+
+    On a dry rail the WSP has no part in that.
+    """
+    of_validity = [each for each in result.criteria if each.layer == "validity" and each.value is not None]
+    missed = any(each.status == "fail" for each in of_validity)
+    resolved = case.scenario
+    if not (missed or (of_validity and resolved.test_validity == "rail")):
+        return False
+    return resolved.rig.wsp == "active" and resolved.drag is None and resolved.rail.condition.name != "dry"
+
+
+def with_rail(
+    result: CaseResult, case: scenario.Case, measures: StopMeasures, wheelset_measures: Wheelsets
+) -> CaseResult:
+    """Return a result with the validity of the rail, which decides where the scenario says so.
+
+    Args:
+        result: of the stop with the WSP active.
+        case: with the WSP active: its criteria of validity judge both stops.
+        measures: record of the same stop, with the WSP bypassed, SI.
+        wheelset_measures: one record per wheelset of that stop.
+    """
+    verdicts = judge(case.scenario, measures, wheelset_measures, detail="status")
+    of_validity = tuple(each for each in verdicts if each.layer == "validity")
+    decides = case.scenario.test_validity == "rail"
+    locks = any(wheelset.longest_lock >= 1.0 for wheelset in wheelset_measures)
+    rail = RailValidity(of_validity, case.scenario.rail.friction_as_found, locks, decides)
+    outcome, reason = outcome_of(decided_by(result.criteria, rail))
+    return replace(result, rail=rail, outcome=outcome, reason=reason)

@@ -1,25 +1,142 @@
-"""The effective parts of a case, and which program its controller is."""
+"""The parts that a case was run with, their parameters, and which program its controller is."""
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import Any, Final, get_args
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from operator import attrgetter
+from typing import Annotated, Any, Final, get_args
+
+from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
 
 from uictest.controllers import Kind
-from uictest.judging.evaluation.parameters import EffectivePart, Parameter
+from uictest.judging.evaluation.json_values import from_json_form, to_json_form
 from uictest.plans.scenario import (
     DESCRIPTIVE,
     PART_KEYS,
     PART_KINDS,
     Coupler,
+    DescribedValue,
     Scenario,
-    Value,
-    mark_of,
-    values_in,
+    described_values,
 )
-from uictest.plans.scenario.yaml import Key, Model, Part, Quantity, dotted
+from uictest.plans.scenario.yaml import Key, Model, Part, dotted
+
+_DIGITS = 12
+"""Hexadecimal digits of a digest: of ten thousand parts two share one with a probability below 1e-6."""
+
+PlainValue = bool | int | float | str
+"""Value of a parameter: a number in its unit, a text or a truth value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One number or setting.
+
+    Args:
+        key: where it stands in the scenario, e.g. `controller.slip_threshold`.
+        value: in `unit`; a text or a truth value for a setting.
+        unit: SI, `1` for a pure number, empty for a setting.
+        written: the value as the file writes it.
+        mark: how far it can be trusted: stated, published, identified or chosen; `user` for a value that the
+            user gave without a source, `default` for one that was not given, empty for a setting of a library
+            part.
+        source: a key of the part's `sources`, else empty.
+        differs: whether the part that this one is based on has another value, or none.
+        library_value: its value there where it differs, in `unit`; None where it has none.
+        library_written: the same as the file writes it, else empty.
+
+    """
+
+    key: str
+    value: PlainValue
+    unit: str
+    written: str
+    mark: str
+    source: str = ""
+    differs: bool = False
+    library_value: PlainValue | None = None
+    library_written: str = ""
+
+
+def _without_library(parameter: Parameter, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form: dict[str, Any] = write(parameter)
+    if not parameter.differs:
+        del form["library_value"], form["library_written"]
+    return form
+
+
+WrittenParameter = Annotated[Parameter, WrapSerializer(_without_library)]
+"""In JSON `library_value` and `library_written` stand only where the parameter differs."""
+
+
+@dataclass(frozen=True)
+class EffectivePart:
+    """A part of the rig, a section of the scenario or a profile of criteria, with its parameters.
+
+    Args:
+        kind: controller, vehicle, ...; `scenario`, `scenario.brake`, ... for what the scenario says itself.
+        key: where it stands in the scenario.
+        name: what its file calls it; of a controller from outside, its class, file or address without one.
+        based_on: name of the library part at the root of `extends`, or of the file there; None where it
+            extends nothing.
+        parameters: all of them, in the order of the model.
+        removed: keys of parameters, or of whole sections, that the part at the root has and this one has not.
+        sources: text of each source that a parameter names.
+
+    """
+
+    kind: str
+    key: str
+    name: str
+    based_on: str | None
+    parameters: tuple[WrittenParameter, ...]
+    removed: tuple[str, ...] = ()
+    sources: Mapping[str, str] = field(default_factory=dict)
+
+    @cached_property
+    def id(self) -> str:
+        """Kind and digest of the content, e.g. `controller/3f2a91c0b2d4`."""
+        text = json.dumps(parts_form({"": self})[""], sort_keys=True)
+        return f"{self.kind}/{hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()[:_DIGITS]}"
+
+    @cached_property
+    def changed(self) -> tuple[Parameter, ...]:
+        """The parameters that differ from the part it is based on; in a scenario, from the defaults."""
+        return tuple(parameter for parameter in self.parameters if parameter.differs)
+
+
+def parts_table(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, EffectivePart]:
+    """Return every distinct part of some cases by its id, in the order of its first use."""
+    return {part.id: part for parts in cases for part in parts.values()}
+
+
+_WRITTEN_PARTS: Final = TypeAdapter(
+    dict[str, EffectivePart], config=ConfigDict(extra="forbid", defer_build=True)
+)
+
+
+def parts_form(parts: Mapping[str, EffectivePart]) -> dict[str, Any]:
+    """Return the JSON form of parts, under the keys given."""
+    form: dict[str, Any] = to_json_form(_WRITTEN_PARTS, parts)
+    return form
+
+
+def parts_document(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, Any]:
+    """Return the JSON form of every distinct part of some cases, by id."""
+    return parts_form(parts_table(cases))
+
+
+def parts_of(document: Mapping[str, Any]) -> dict[str, EffectivePart]:
+    """Return the parts in a document by id.
+
+    Raises ValueError where there are none, a part lacks or adds a field, or a value is of another type.
+    """
+    return from_json_form(_WRITTEN_PARTS, document.get("parts"), place="parts")
+
 
 _PARTS: Final = {kind: dotted(key) for key, kind in PART_KINDS.items() if not PART_KEYS[key].several}
 """Kind of a part -> where it stands in a scenario."""
@@ -27,6 +144,7 @@ _PARTS: Final = {kind: dotted(key) for key, kind in PART_KINDS.items() if not PA
 _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.wsp")
 """Keys that describe a recorded stop, besides rail condition, criteria and measures."""
 
+_Rows = Mapping[Key, DescribedValue]
 _SECTIONS: Final = ("brake", "rail", "rig", "simulation", "record")
 _OF_SAND: Final = "rail.sand."
 _RAIL_OVERRIDES: Final = ("friction", "cleaning", "variation")
@@ -48,41 +166,40 @@ class _Same:
         return isinstance(other, _Same) and self.part is other.part
 
 
-class EffectiveParts:
-    """Computes the effective parts of scenarios; a part that many scenarios share is computed once."""
+def effective_parts(scenario: Scenario) -> dict[str, EffectivePart]:
+    """Return every part of a simulated stop by its role: the kind, and `criteria.0`, ... for profiles."""
+    couplers = None if scenario.coupler is None else Coupler()  # a train has some, stated or not
+    stop = [*_own(scenario, "", {"coupler": couplers}), *_own(scenario.simulation, "simulation.", {})]
+    parts = {"scenario": EffectivePart("scenario", "", "", None, tuple(stop))}
+    for name in ("brake", "rail", "rig"):
+        own = tuple(_section(scenario, name))
+        parts[f"scenario.{name}"] = EffectivePart(f"scenario.{name}", name, "", None, own)
+    overrides = tuple(name for name in _RAIL_OVERRIDES if getattr(scenario.rail, name) is not None)
+    for kind, key in _PARTS.items():
+        part = attrgetter(key)(scenario)
+        parts[kind] = _effective(_Same(part), kind, key, overrides if kind == "rail" else ())
+    return parts | _profiles(scenario.judged_by)
 
-    def of(self, scenario: Scenario) -> dict[str, EffectivePart]:
-        """Return every part of a simulated stop by its role: the kind, and `criteria.0`, ... for profiles."""
-        parts = {"scenario": EffectivePart("scenario", "", "", None, tuple(_stop(scenario)))}
-        for name in ("brake", "rail", "rig"):
-            own = tuple(_section(scenario, name))
-            parts[f"scenario.{name}"] = EffectivePart(f"scenario.{name}", name, "", None, own)
-        for kind, key in _PARTS.items():
-            overridden = _overridden(scenario) if kind == "rail" else ()
-            parts[kind] = self.part(_at(scenario, key), kind, key, overridden)
-        return parts | self._criteria(scenario.judged_by)
 
-    def of_recorded(self, scenario: Scenario) -> dict[str, EffectivePart]:
-        """Return the parts of a recorded stop: conditions, measures and criteria, nothing of a rig."""
-        condition = scenario.rail.condition
-        stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
-        for name in ("brake", "rail", "rig"):
-            stated += [row for row in _section(scenario, name) if row.key.startswith(_CONDITIONS)]
-        stated += _section(scenario, "record")
-        return {
-            "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
-            "measures": self.part(scenario.measures, "measures", "measures"),
-            **self._criteria(scenario.criteria),
-        }
+def recorded_parts(scenario: Scenario) -> dict[str, EffectivePart]:
+    """Return the parts of a recorded stop: conditions, measures and criteria, nothing of a rig."""
+    condition = scenario.rail.condition
+    stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
+    for name in ("brake", "rail", "rig"):
+        stated += [row for row in _section(scenario, name) if row.key.startswith(_CONDITIONS)]
+    stated += _section(scenario, "record")
+    return {
+        "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
+        "measures": _effective(_Same(scenario.measures), "measures", "measures", ()),
+        **_profiles(scenario.criteria),
+    }
 
-    def part(self, part: Part, kind: str, key: str, overridden: Key = ()) -> EffectivePart:
-        """Return one part that stands at `key`, without the keys that the scenario overrides."""
-        return _effective(_Same(part), kind, key, overridden)
 
-    def _criteria(self, profiles: Iterable[Part]) -> dict[str, EffectivePart]:
-        return {
-            f"criteria.{place}": self.part(profile, "criteria", "") for place, profile in enumerate(profiles)
-        }
+def _profiles(profiles: Iterable[Part]) -> dict[str, EffectivePart]:
+    return {
+        f"criteria.{index}": _effective(_Same(profile), "criteria", "", ())
+        for index, profile in enumerate(profiles)
+    }
 
 
 _MOST_KEPT: Final = 1000
@@ -91,30 +208,30 @@ _MOST_KEPT: Final = 1000
 
 @lru_cache(_MOST_KEPT)
 def _effective(same: _Same, kind: str, key: str, overridden: Key) -> EffectivePart:
-    part = same.part
+    """Return one part that stands at `key`, without the keys that the scenario overrides."""
+    part, root = same.part, same.part.original
     values, original = (
-        {place: value for place, value in values_in(each) if place[0] not in overridden}
-        for each in (part, part.original)
+        {
+            row.elements: row
+            for row in (() if each is None else described_values(each, each.sources))
+            if row.elements[0] not in overridden
+        }
+        for each in (part, root)
     )
-    above = f"{key}." if key else ""
-    library = original if part.original else None
-    parameters = tuple(
-        _as_declared(
-            part, place, _parameter(above, place, value, library, _mark(part, place, value, original))
-        )
-        for place, value in values.items()
-    )
+    above, library = f"{key}." if key else "", original if root else None
+    parameters = []
+    for elements, row in values.items():
+        # A setting has no source: it is the user's where the original has another.
+        other = original.get(elements)
+        setting_mark = "" if other is not None and other.value == row.value else "user"
+        parameters.append(_as_declared(part, row, _parameter(above, row, setting_mark, library)))
     removed = tuple(f"{above}{dotted(place)}" for place in _removed(original, values))
     used = {parameter.source for parameter in parameters if parameter.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
-    return EffectivePart(kind, key, part.label, part.based_on, parameters, removed, sources)
+    return EffectivePart(kind, key, part.label, part.based_on, tuple(parameters), removed, sources)
 
 
-def _overridden(scenario: Scenario) -> Key:
-    return tuple(name for name in _RAIL_OVERRIDES if getattr(scenario.rail, name) is not None)
-
-
-def _removed(original: Mapping[Key, Value], values: Mapping[Key, Value]) -> list[Key]:
+def _removed(original: Mapping[Key, object], values: Mapping[Key, object]) -> list[Key]:
     """Return the keys of its original that a part lacks; of a section that it lacks, the section alone."""
     kept = {place[:depth] for place in values for depth in range(len(place) + 1)}
     return list(
@@ -126,25 +243,16 @@ def _removed(original: Mapping[Key, Value], values: Mapping[Key, Value]) -> list
     )
 
 
-def _mark(part: Part, place: Key, value: Value, original: Mapping[Key, Value]) -> str:
-    if isinstance(value, Quantity):
-        return mark_of(value, part.sources)
-    return "" if original.get(place) == value else "user"
-
-
-def _as_declared(part: Part, place: Key, parameter: Parameter) -> Parameter:
+def _as_declared(part: Part, row: DescribedValue, parameter: Parameter) -> Parameter:
     """Return a parameter of a controller from outside with its unit, marked where it has its default."""
-    declared = getattr(part, "declared_parameters", {}).get(place[1]) if place[0] == "parameters" else None
+    if row.elements[0] != "parameters":
+        return parameter
+    name = row.elements[1]
+    declared = getattr(part, "declared_parameters", {}).get(name)
     if declared is None:
         return parameter
-    is_default = parameter.mark == "user" and getattr(part, "parameters", {})[place[1]] == declared.default
+    is_default = parameter.mark == "user" and getattr(part, "parameters", {})[name] == declared.default
     return replace(parameter, unit=declared.unit, mark="default" if is_default else parameter.mark)
-
-
-def _stop(scenario: Scenario) -> Iterator[Parameter]:
-    couplers = None if scenario.coupler is None else Coupler()  # a train has some, stated or not
-    yield from _own(scenario, "", {"coupler": couplers})
-    yield from _own(scenario.simulation, "simulation.", {})
 
 
 def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
@@ -158,48 +266,29 @@ def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
 
 def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
     """Yield the parameters that stand in the scenario file; optional ones are compared with their default."""
+    values, optional = dict[str, object](), dict[str, object]()
     for name, declared in type(model).model_fields.items():
         value = getattr(model, name)
-        if name in DESCRIPTIVE or (name in _SECTIONS and isinstance(value, Model)):
-            continue
-        default = None if declared.is_required() else dict(values_in(defaults.get(name, declared.default)))
+        if name not in DESCRIPTIVE and not (name in _SECTIONS and isinstance(value, Model)):
+            values[name] = value
+            if not declared.is_required():
+                optional[name] = defaults.get(name, declared.default)
+    library = {row.elements: row for row in described_values(optional, {})}
+    for row in described_values(values, {}):
+        name = str(row.elements[0])
         setting = "user" if name in model.model_fields_set else "default"
-        for place, part_value in values_in(value, (name,)):
-            mark = mark_of(part_value, {}) if isinstance(part_value, Quantity) else setting
-            below = None if default is None else {(name, *key): other for key, other in default.items()}
-            yield _parameter(above, place, part_value, below, mark)
+        yield _parameter(above, row, setting, library if name in optional else None)
 
 
-def _parameter(
-    above: str, place: Key, value: Value, library: Mapping[Key, Value] | None, mark: str
-) -> Parameter:
+def _parameter(above: str, row: DescribedValue, setting_mark: str, library: _Rows | None) -> Parameter:
     """Return a parameter compared with the library part; `library` is None without such a part."""
-    source = value.source if isinstance(value, Quantity) and mark not in ("user", "default") else ""
-    other = None if library is None else library.get(place)
-    key, unit = f"{above}{dotted(place)}", value.unit if isinstance(value, Quantity) else ""
-    own = (key, _plain(value), unit, _written(value), mark, source)
-    if library is None or other == value:
+    other = None if library is None else library.get(row.elements)
+    own = (f"{above}{row.key}", row.value, row.unit, row.written, row.mark or setting_mark, row.source)
+    if library is None or (other is not None and other.value == row.value):
         return Parameter(*own)
     if other is None:
         return Parameter(*own, differs=True)
-    return Parameter(*own, differs=True, library_value=_plain(other), library_written=_written(other))
-
-
-def _plain(value: Value) -> float | str:
-    return float(value) if isinstance(value, float) else value
-
-
-def _written(value: Value) -> str:
-    if isinstance(value, Quantity):
-        return value.text
-    return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def _at(scenario: Scenario, key: str) -> Any:
-    value: Any = scenario
-    for element in key.split("."):
-        value = getattr(value, element)
-    return value
+    return Parameter(*own, differs=True, library_value=other.value, library_written=other.written)
 
 
 _KINDS: Final = get_args(Kind)

@@ -8,12 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import PlainSerializer
 
-from uictest.judging.evaluation.json_values import (
-    BuiltWhenUsed,
-    OptionalNumber,
-    absent_if_empty,
-    json_form,
-)
+from uictest.judging.evaluation.json_values import BuiltWhenUsed, OptionalNumber, absent_if_empty, json_form
 
 FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]
 """firm: no value at an end of its range, and no draw of all of them, turns the verdict. turns: one does.

@@ -111,19 +111,15 @@ def from_json_form(
     try:
         return adapter.validate_python(content, context=context)
     except ValidationError as error:
-        raise ValueError(_first_problem(error, place)) from error
+        first = error.errors(include_url=False, include_context=False, include_input=False)[0]
+        where = ".".join(filter(None, (place, *map(str, first["loc"]))))
+        what = first["msg"].removeprefix("Value error, ")
+        raise ValueError(f"{where}: {what}" if where else what) from error
 
 
 def to_json_form(adapter: TypeAdapter[Any], value: object) -> Any:
     """Return the JSON form of a value: dicts, lists, text, finite numbers and None."""
     return adapter.dump_python(value, mode="json", by_alias=True)
-
-
-def _first_problem(error: ValidationError, place: str) -> str:
-    first = error.errors(include_url=False, include_context=False, include_input=False)[0]
-    where = ".".join(filter(None, (place, *map(str, first["loc"]))))
-    what = first["msg"].removeprefix("Value error, ")
-    return f"{where}: {what}" if where else what
 
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]

@@ -1,7 +1,9 @@
-"""What the stops of a repeated case come to: for one criterion, and for the case, whose result it is."""
+"""The stops of a repeated case judged together: criterion by criterion, and as a case."""
 
 from __future__ import annotations
 
+import math
+import statistics
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
@@ -9,23 +11,109 @@ from operator import not_
 from typing import Final
 
 from uictest.core.measures import StopMeasures, Wheelsets
-from uictest.judging.evaluation.bounds import ObservedStop, bounds_of, why_cut_off, why_no_stopping
-from uictest.judging.evaluation.car_in_train import over_stops_of_train
-from uictest.judging.evaluation.criterion_over_stops import OutcomeRule, decision_over_stops, over_stops
-from uictest.judging.evaluation.decision import Decision, decide
+from uictest.core.units import value_text
+from uictest.judging.evaluation.decision import Bounds, Decision, ObservedStop, bounds_of, decide
 from uictest.judging.evaluation.json_values import Outcome
-from uictest.judging.evaluation.judgement import Detail, undecided, verdict_by, verdict_of, with_definitions
+from uictest.judging.evaluation.judgement import (
+    Decide,
+    Detail,
+    undecided,
+    verdict_by,
+    verdict_of,
+    with_definitions,
+)
+from uictest.judging.evaluation.outcome import RailValidity, decided_by, outcome_of
 from uictest.judging.evaluation.repeats import (
     RepeatedStop,
     Repeats,
+    Rule,
     column_medians,
     seeds_text,
+    stops_needed,
 )
-from uictest.judging.evaluation.result import CaseResult
-from uictest.judging.evaluation.statements import RailValidity, decided_by, outcome_of
-from uictest.judging.evaluation.verdict import Verdict
+from uictest.judging.evaluation.result import CaseResult, over_stops_of_train
+from uictest.judging.evaluation.verdict import OverStops, Status, Verdict
 from uictest.plans import scenario
-from uictest.plans.scenario import Expectation, TestConditions, test_conditions_of
+from uictest.plans.scenario import Expectation
+
+
+@dataclass(frozen=True, slots=True)
+class OutcomeRule:
+    """A rule with the share of stops that must come out alike, from 0 to 1; `median` asks for none."""
+
+    name: Rule
+    share: float = 1.0
+
+    def needed(self, stops: int) -> int:
+        """Return how many of so many stops that is."""
+        return stops_needed(self.share, stops)
+
+
+def decision_over_stops(decisions: Sequence[Decision], bounds: Bounds, rule: OutcomeRule) -> Decision:
+    """Return what a criterion says of all stops together, given its decision on each.
+
+    Stops that it does not apply to do not count. The value is the median of those that have one. Where the
+    remaining stops agree, so does the status. Otherwise `median` judges the median, in which a stop without a
+    value may have any; the other rules count the stops that pass: the criterion is inconclusive where those
+    that are inconclusive could make up the number needed.
+    """
+    judged = [decision for decision in decisions if decision.status != "not_applicable"]
+    if not judged:
+        return decisions[0]
+    values = [each.value for each in judged if each.value is not None and math.isfinite(each.value)]
+    status = _status(judged, values, bounds, rule)
+    reason = _reason(judged, values, len(decisions), bounds.text, rule)
+    if not values:
+        return Decision(status, None, reason)
+    value = statistics.median(values)
+    return Decision(status, value, reason, bounds.side(value))
+
+
+def over_stops(decisions: Sequence[Decision]) -> OverStops:
+    """Return how many of the decisions on one criterion have each status, and the range of their values."""
+    statuses = [decision.status for decision in decisions]
+    values = [each.value for each in decisions if each.value is not None and math.isfinite(each.value)]
+    return OverStops(
+        passed=statuses.count("pass"),
+        failed=statuses.count("fail"),
+        inconclusive=statuses.count("inconclusive"),
+        not_applicable=statuses.count("not_applicable"),
+        lowest=min(values, default=None),
+        highest=max(values, default=None),
+    )
+
+
+def _status(judged: Sequence[Decision], values: Sequence[float], bounds: Bounds, rule: OutcomeRule) -> Status:
+    statuses = [decision.status for decision in judged]
+    if len(set(statuses)) == 1:
+        return statuses[0]
+    if rule.name == "median":
+        unknown = [math.inf] * (len(judged) - len(values))
+        lowest = statistics.median([*(-each for each in unknown), *values])
+        holds = bounds.hold_throughout(lowest, statistics.median([*values, *unknown]))
+        return "inconclusive" if holds is None else "pass" if holds else "fail"
+    passed, needed = statuses.count("pass"), rule.needed(len(judged))
+    if passed >= needed:
+        return "pass"
+    return "inconclusive" if passed + statuses.count("inconclusive") >= needed else "fail"
+
+
+def _reason(
+    judged: Sequence[Decision], values: Sequence[float], stops: int, demand: str, rule: OutcomeRule
+) -> str:
+    text = f"{sum(decision.status == 'pass' for decision in judged)} of {len(judged)} stops pass"
+    if rule.name != "median":
+        text += f" ({rule.needed(len(judged))} needed)"
+    if len(judged) < stops:
+        text += f", not applicable to {stops - len(judged)} more"
+    if values:
+        middle, low, high = (
+            value_text(each, "1") for each in (statistics.median(values), min(values), max(values))
+        )
+        text += f": median {middle} in {low} .. {high}, against {demand}"
+    undecided = next((each.reason for each in judged if each.status == "inconclusive"), "")
+    return f"{text}; {undecided}" if undecided else text
+
 
 _MOST_TELLING: Final[tuple[Outcome, ...]] = ("fail", "pass", "invalid", "skipped", "inconclusive")
 """Outcomes of stops that are not as expected, those that say most first."""
@@ -149,8 +237,8 @@ def _rail_over_stops(
     def over(name: str) -> Verdict:
         own = [verdict for verdicts in of_stops for verdict in verdicts if verdict.id == name]
         decisions = [Decision(each.status, each.value, each.reason) for each in own]
-        bounds, unit = bounds_of(criteria[name]), criteria[name].unit
-        return verdict_of(criteria[name], bounds, decision_over_stops(decisions, bounds, unit, rule))
+        bounds = bounds_of(criteria[name])
+        return verdict_of(criteria[name], bounds, decision_over_stops(decisions, bounds, rule))
 
     return replace(first, criteria=tuple(over(each.id) for each in first.criteria))
 
@@ -163,28 +251,20 @@ def judge_repeats(
     Stops that ended in an error are left out; without any other there is no verdict. Definitions run through
     their range in all stops at once.
     """
-    conditions = test_conditions_of(resolved)
     stops = [
-        ObservedStop(
-            each.measures,
-            each.wheelset_measures,
-            why_cut_off(resolved, each.measures, None),
-            no_stopping=why_no_stopping(resolved),
-            resolved=resolved,
-        )
+        ObservedStop(resolved, each.measures, each.wheelset_measures)
         for each in repeats
         if each.measures is not None
     ]
     for profile in resolved.judged_by if stops else ():
         for criterion in profile.criteria:
-            verdict = _judge(criterion, profile, conditions, resolved.measures, rule, stops)
+            verdict = _judge(criterion, profile, rule, stops)
             if verdict.layer == "rig" and verdict.status == "fail":
                 verdict = replace(verdict, reason=f"{verdict.reason}; {_first_reason(repeats, verdict.id)}")
             yield with_definitions(verdict, criterion, profile, resolved)
 
 
 def _first_reason(repeats: Sequence[SimulatedRepeat], criterion: str) -> str:
-    """Return why the first stop that a check of the rig fails in fails it, with its seed."""
     reasons = (
         f"seed {each.seed}: {verdict.reason}"
         for each in repeats
@@ -197,28 +277,32 @@ def _first_reason(repeats: Sequence[SimulatedRepeat], criterion: str) -> str:
 def _judge(
     criterion: scenario.Criterion,
     profile: scenario.Criteria,
-    conditions: TestConditions,
-    observation: scenario.MeasureDefinitions,
     rule: OutcomeRule,
     stops: Sequence[ObservedStop],
 ) -> Verdict:
-    without_value = [undecided(criterion, profile, conditions, stop, observation) for stop in stops]
+    without_value = [undecided(criterion, profile, stop) for stop in stops]
     if criterion.layer == "rig" and rule.name == "median":
         rule = OutcomeRule("all")  # the figures of a stop whose rig is wrong are in every median
 
-    def decisions(read: scenario.Criterion, definition: Mapping[str, float]) -> list[Decision]:
+    def decider_of(read: scenario.Criterion, bounds: Bounds) -> Decide:
         own = without_value
         if read is not criterion:
-            own = [undecided(read, profile, conditions, stop, observation) for stop in stops]
-        pairs = zip(own, stops, strict=True)
-        return [known or decide(read, bounds_of(read), definition, stop) for known, stop in pairs]
+            own = [undecided(read, profile, stop) for stop in stops]
 
-    def decide_by(read: scenario.Criterion, definition: Mapping[str, float]) -> Decision:
-        decision = decision_over_stops(decisions(read, definition), bounds_of(read), read.unit, rule)
-        where = read.speed_range(definition) if decision.value is not None else ""
-        return decision._replace(reason=f"{decision.reason} ({where})") if where else decision
+        def decide_with(definition: Mapping[str, float], *, explained: bool) -> Decision:
+            decisions = [
+                known or decide(read, bounds, definition, stop, explained=explained)
+                for known, stop in zip(own, stops, strict=True)
+            ]
+            decision = decision_over_stops(decisions, bounds, rule)
+            where = read.speed_range(definition) if explained and decision.value is not None else ""
+            return decision._replace(reason=f"{decision.reason} ({where})") if where else decision
 
+        return decide_with
+
+    bounds, stated = bounds_of(criterion), criterion.definition.stated()
     detail: Detail = "full" if any(each is None for each in without_value) else "status"
-    verdict = verdict_by(criterion, bounds_of(criterion), decide_by, detail=detail)
-    stated = criterion.definition.stated()
-    return replace(verdict, over_stops=over_stops(decisions(criterion, stated)))
+    verdict = verdict_by(criterion, bounds, decider_of, detail=detail)
+    pairs = zip(without_value, stops, strict=True)
+    of_stops = [known or decide(criterion, bounds, stated, stop, explained=False) for known, stop in pairs]
+    return replace(verdict, over_stops=over_stops(of_stops))

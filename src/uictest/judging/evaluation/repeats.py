@@ -21,7 +21,7 @@ from uictest.judging.evaluation.json_values import (
     json_form,
     required,
 )
-from uictest.judging.evaluation.statements import WrittenRailValidity, decided_by, is_expected
+from uictest.judging.evaluation.outcome import WrittenRailValidity, decided_by, is_expected
 from uictest.judging.evaluation.verdict import Verdict, WrittenVerdict
 from uictest.plans.scenario import Expectation
 
@@ -83,10 +83,7 @@ class Repeats:
     """
 
     rule: Rule
-    stops: Annotated[
-        tuple[_WrittenStop, ...],
-        Field(min_length=1),
-    ]
+    stops: Annotated[tuple[_WrittenStop, ...], Field(min_length=1)]
     required_share: OptionalNumber = None
 
     @property

@@ -1,33 +1,42 @@
-"""The result of one case: outcome, verdicts, measures in the units a brake engineer reads; its document."""
+"""The result of a case: where its car ran, verdicts, measures and outcome; its document."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+import json
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Annotated, Any, Final
 
 from pydantic import (
     BeforeValidator,
+    ConfigDict,
     Field,
     PlainSerializer,
     PlainValidator,
     SerializerFunctionWrapHandler,
+    TypeAdapter,
     ValidationInfo,
     WrapSerializer,
 )
 
 from uictest.controllers import ResponseTimes
-from uictest.judging.evaluation.car_in_train import CarInTrain, WrittenCarFigures
+from uictest.core import envelope
+from uictest.core.units import with_unit
+from uictest.judging.evaluation.effective_parts import EffectivePart, parts_document, parts_of
 from uictest.judging.evaluation.firmness import WrittenFirmness
 from uictest.judging.evaluation.json_values import (
     CaseMeasures,
     CaseWheelsetMeasures,
     Outcome,
+    absent_if_empty,
+    from_json_form,
+    json_form,
     required,
+    to_json_form,
 )
-from uictest.judging.evaluation.parameters import DomainOfValidity, EffectivePart
-from uictest.judging.evaluation.repeats import WrittenRepeats
-from uictest.judging.evaluation.statements import (
+from uictest.judging.evaluation.outcome import (
     RequirementStatus,
     TestValidity,
     WrittenRailValidity,
@@ -36,13 +45,122 @@ from uictest.judging.evaluation.statements import (
     requirements_of,
     validity_of,
 )
-from uictest.judging.evaluation.verdict import (
-    Verdict,
-    WrittenVerdict,
-    relative_margin,
-    with_outcome_of,
-)
+from uictest.judging.evaluation.repeats import WrittenRepeats
+from uictest.judging.evaluation.verdict import Verdict, WrittenVerdict, relative_margin, with_outcome_of
+from uictest.plans import scenario
 from uictest.plans.scenario import WrittenExpectation
+
+WrittenCarFigures = Annotated[scenario.CarFigures, absent_if_empty("implausible")]
+"""In JSON the figures of a car list what is implausible only where something is."""
+
+_KILONEWTON = 1e3
+
+
+@dataclass(frozen=True, slots=True)
+class CouplerForces:
+    """The largest forces in a coupler during a stop, N; neither is negative."""
+
+    largest_pull_n: float
+    largest_push_n: float
+
+    def __str__(self) -> str:
+        pull, push = (f"{each / _KILONEWTON:.1f}" for each in (self.largest_pull_n, self.largest_push_n))
+        return f"pull {with_unit(pull, 'kN')}, push {with_unit(push, 'kN')}"
+
+
+@dataclass(frozen=True, slots=True)
+class CarInTrain:
+    """The place of a car in its train; over several stops of a case the largest forces of all.
+
+    Args:
+        train: id of the train.
+        car: its number, from 1 for the leading one.
+        cars: of the train.
+        ahead: forces in the coupler to the car ahead; None for the leading car, and where no stop ended.
+        behind: forces in the coupler to the car behind; None for the last car, and where no stop ended.
+
+    """
+
+    train: str
+    car: int
+    cars: int
+    ahead: CouplerForces | None = None
+    behind: CouplerForces | None = None
+
+    @property
+    def label(self) -> str:
+        """The place in words: `car 2 of 4`."""
+        return f"car {self.car} of {self.cars}"
+
+    @property
+    def couplers(self) -> Iterator[tuple[str, CouplerForces]]:
+        """The couplers that it has, `ahead` and `behind`, with their forces."""
+        for name, forces in (("ahead", self.ahead), ("behind", self.behind)):
+            if forces is not None:
+                yield name, forces
+
+
+def place_in_train(case: scenario.Case) -> CarInTrain | None:
+    """Return where the car of a case runs, None for one that runs alone."""
+    place = case.train
+    return None if place is None else CarInTrain(place.train, place.number, len(place.scenarios))
+
+
+def over_stops_of_train(places: Sequence[CarInTrain | None]) -> CarInTrain | None:
+    """Return the place of a car over several stops of its train, with the largest forces of all."""
+    known = [each for each in places if each is not None]
+    if not known:
+        return None
+    return replace(
+        known[0], ahead=_largest(each.ahead for each in known), behind=_largest(each.behind for each in known)
+    )
+
+
+def _largest(forces: Iterable[CouplerForces | None]) -> CouplerForces | None:
+    known = [each for each in forces if each is not None]
+    if not known:
+        return None
+    return CouplerForces(
+        max(each.largest_pull_n for each in known), max(each.largest_push_n for each in known)
+    )
+
+
+Found = str | tuple[float, float] | None
+"""A setting or the name of a part; the lowest and the highest value of a number, SI; None: it is not set."""
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """One condition of a case that none of the validated stops had.
+
+    Args:
+        key: of the scenario, or of a part.
+        found: in the case.
+        validated: among the validated stops that come nearest to it.
+        unit: of numbers, SI.
+
+    """
+
+    key: str
+    found: Found
+    validated: Found
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DomainOfValidity:
+    """Whether a case lies in the domain of a validation: then nothing is `outside`.
+
+    Args:
+        validation: its name.
+        sha256: of its file.
+        outside: every condition beyond it.
+
+    """
+
+    validation: str
+    sha256: str
+    outside: tuple[Deviation, ...] = ()
 
 
 def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
@@ -65,7 +183,7 @@ NamedParts = Annotated[
 """In JSON a case names its parts by their ids: the document holds each part once."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CaseResult:
     """One case, judged. `scenario` is the file as the case names it (forward slashes).
 
@@ -76,7 +194,7 @@ class CaseResult:
     `case_sha256` what named the stop, :func:`uictest.rig.assembly.case_sha256`. `requirements` are the ids of
     those that the case verifies as a whole; its criteria may verify others. `test_case` is its id in a test
     management tool. `noise_key` names the noise of the sensors that a simulated stop met, together with its
-    seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says whether the case lies where the model
+    seed, see :mod:`uictest.rig.train_stop`. `domain_of_validity` says whether the case lies where the model
     was validated; None where nobody asked. `strict` says that the case is not met either where one of its
     verdicts is not settled. `firmness` says whether unmeasured numbers turn its verdicts, where that was
     asked. `train` says where a car ran in its train, `car` its mass and what follows, `rail` whether the rail
@@ -115,7 +233,7 @@ class CaseResult:
     controller_log: str = ""
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
-    @property
+    @cached_property
     def as_expected(self) -> bool:
         """Whether it came out as expected; of a repeated case, as many of its stops as its rule asks for."""
         if self.repeats is not None and self.repeats.needed is not None:
@@ -164,8 +282,10 @@ class CaseResult:
         Nothing is where every verdict is settled, the outcome is firm if that was asked, what may be missed
         is named, and nothing is missed that is allowed only.
         """
-        is_open = self.unsettled or self.lacks_firmness or self.expect.lacks_names or self.allowed
-        return self.as_expected and not (self.strict and is_open)
+        is_open = self.strict and (
+            self.unsettled or self.lacks_firmness or self.expect.lacks_names or self.allowed
+        )
+        return self.as_expected and not is_open
 
     @property
     def is_firm(self) -> bool:
@@ -249,3 +369,69 @@ WrittenCaseResult = Annotated[
     WrapSerializer(_written),
 ]
 """A result as documents hold it; what its verdicts come to stands there for readers that need no more."""
+
+
+_CASES: Final = TypeAdapter(list[WrittenCaseResult], config=ConfigDict(extra="forbid", defer_build=True))
+
+
+def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, Any]:
+    """Return the head of results, the header, `parts` and `cases`, with NaN and infinity as None.
+
+    Cases name their parts by ids: a part that many cases share is there once.
+    """
+    results = list(results)
+    return {
+        **envelope.head(envelope.RESULT, "run"),
+        **json_form(header),
+        "parts": parts_document(result.parts for result in results),
+        "cases": cases_document(results),
+    }
+
+
+def cases_document(results: Iterable[CaseResult]) -> list[dict[str, Any]]:
+    """Return the JSON form of results, NaN and infinity as None, without how long they took."""
+    form: list[dict[str, Any]] = to_json_form(_CASES, list(results))
+    return form
+
+
+def cases_of(content: object, parts: Mapping[str, EffectivePart], place: str = "cases") -> list[CaseResult]:
+    """Return the results whose JSON form is `content`; `parts` are those they may name, by id.
+
+    `place` is where the content stands in its document. Raises ValueError where a case lacks or adds a field,
+    or names another part.
+    """
+    return from_json_form(_CASES, content, place=place, context=parts)
+
+
+def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
+    """Return the results in a document.
+
+    Raises:
+        ValueError: the document is of another schema or kind, or a case in it lacks or adds a field, or two
+            share an id.
+
+    """
+    try:
+        envelope.require(content, envelope.RESULT, "run")
+        results = cases_of(content["cases"], parts_of(content))
+        _require_distinct(results)
+    except KeyError as error:
+        raise ValueError(f"no {error}") from error
+    return results
+
+
+def _require_distinct(results: Iterable[CaseResult]) -> None:
+    # Readers look cases up by id: of two, one would be compared and the other never seen.
+    counts = Counter(result.id for result in results)
+    if repeated := [case_id for case_id, count in counts.items() if count > 1]:
+        raise ValueError(f"two cases have the id {repeated[0]!r}")
+
+
+def to_json(content: Mapping[str, Any]) -> str:
+    """Return the document as JSON text: two spaces of indentation, newline at the end.
+
+    Raises:
+        ValueError: a value in it is NaN or infinite.
+
+    """
+    return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"

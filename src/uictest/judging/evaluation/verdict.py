@@ -8,10 +8,8 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
-from uictest.core.measures import NO_REFERENCE
 from uictest.judging.evaluation.json_values import Number, OptionalNumber, absent_if_empty
 
-NOT_RECORDED: Final = "not recorded: "  # how a reason begins
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """not_applicable: the criterion says nothing of such a stop. inconclusive: data to judge it are missing."""
 
@@ -166,7 +164,8 @@ class Verdict:
     `requirements` holds the ids of those that the criterion verifies, `readings` what each of its readings
     says, the deciding one first; empty where there is only one. `over_stops` is None but for a repeated case,
     in which `value` is the median. `missed_by` holds the wheelsets, from 1, that miss the bounds in one stop.
-    `in_valid_test` requirements stand in a valid test alone.
+    `in_valid_test` requirements stand in a valid test alone. `lacks_data`: the criterion does not apply for
+    lack of a channel in the record, or of a reference.
     """
 
     id: str
@@ -187,6 +186,7 @@ class Verdict:
     readings: tuple[ReadVerdict, ...] = ()
     missed_by: tuple[int, ...] = ()
     in_valid_test: bool = False
+    lacks_data: bool = False
 
     @property
     def is_check(self) -> bool:
@@ -196,8 +196,7 @@ class Verdict:
     @property
     def lacks_channel(self) -> bool:
         """Whether a requirement was left out for lack of a channel in the record, or of a reference."""
-        left_out = self.layer == "requirement" and self.status == "not_applicable"
-        return left_out and self.reason.startswith((NOT_RECORDED, NO_REFERENCE))
+        return self.layer == "requirement" and self.lacks_data
 
     @property
     def turns(self) -> bool:
@@ -224,7 +223,9 @@ def with_outcome_of(verdict: Verdict, other: Verdict) -> Verdict:
     return replace(other, definition=verdict.definition, definitions=verdict.definitions)
 
 
-WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops", "readings", "missed_by", "in_valid_test")]
+WrittenVerdict = Annotated[
+    Verdict, absent_if_empty("over_stops", "readings", "missed_by", "in_valid_test", "lacks_data")
+]
 """In JSON what only some verdicts have is absent from the others."""
 
 

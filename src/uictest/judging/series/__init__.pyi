@@ -1,15 +1,5 @@
-from .counting import (
-    SeriesStop as SeriesStop,
-    observed_stops as observed_stops,
-)
-from .document import (
-    series_document as series_document,
-    series_results_of as series_results_of,
-)
-from .judgement import (
-    judge_results as judge_results,
-    judge_series as judge_series,
-)
+from .counting import SeriesStop as SeriesStop, observed_stops as observed_stops
+from .judgement import judge_results as judge_results, judge_series as judge_series
 from .result import (
     SeriesCase as SeriesCase,
     SeriesResult as SeriesResult,
@@ -17,4 +7,6 @@ from .result import (
     SpeedResult as SpeedResult,
     StopCounts as StopCounts,
     UncountedStop as UncountedStop,
+    series_document as series_document,
+    series_results_of as series_results_of,
 )

@@ -56,7 +56,11 @@ def observed_stops(cases: Sequence[SeriesCase], speed_tolerance_kmh: float) -> l
 
 def _stops_of_case(each: SeriesCase, tolerance: float) -> Iterator[SeriesStop]:
     case = each.case
-    for seed, stop in _observed(case):
+    # A stop that is not repeated is the case itself, without a seed.
+    stops: list[tuple[int | None, CaseResult | RepeatedStop]] = [(None, case)]
+    if case.repeats is not None:
+        stops = [(stop.seed, stop) for stop in case.repeats.stops]
+    for seed, stop in stops:
         why, reason = _why_not_counted(stop)
         if why is None and (other := _other_speed(stop.measures or {}, each.speed_kmh, tolerance)):
             why, reason = "invalid", other
@@ -70,7 +74,11 @@ def _stops_of_case(each: SeriesCase, tolerance: float) -> Iterator[SeriesStop]:
             reason=reason,
             not_counted=why,
             criteria=stop.criteria,
-            figures=CountedStop(dict(stop.measures or {}), tuple(stop.wheelsets), _passed(stop)),
+            figures=CountedStop(
+                dict(stop.measures or {}),
+                tuple(stop.wheelsets),
+                passed=None if stop.outcome == "inconclusive" else stop.outcome == "pass",
+            ),
         )
 
 
@@ -89,19 +97,6 @@ def _why_not_counted(stop: CaseResult | RepeatedStop) -> tuple[Outcome | None, s
     ):
         return "inconclusive", stop.reason
     return None, ""
-
-
-def _passed(stop: CaseResult | RepeatedStop) -> bool | None:
-    """Return whether a stop meets every requirement; None where one was left open."""
-    return None if stop.outcome == "inconclusive" else stop.outcome == "pass"
-
-
-def _observed(case: CaseResult) -> Iterator[tuple[int | None, CaseResult | RepeatedStop]]:
-    """Yield the stops of a case, each with its seed; a stop that is not repeated is the case, without one."""
-    if case.repeats is None:
-        yield None, case
-    else:
-        yield from ((stop.seed, stop) for stop in case.repeats.stops)
 
 
 def _other_speed(measures: Mapping[str, float], nominal: float, tolerance: float) -> str:
@@ -152,7 +147,13 @@ def _judged(
 ) -> SeriesStop:
     if stop.role != "wet" or not stop.counts or not applies(series, criterion, stop):
         return stop
-    verdict = _verdict(criterion, _percent_of_dry(criterion, stop, stops))
+    percent, bounds = _percent_of_dry(criterion, stop, stops), evaluation.bounds_of(criterion)
+    if math.isfinite(percent):
+        decision = evaluation.Decision("pass" if bounds.hold(percent) else "fail", percent, "")
+    else:
+        lacking = "no value of this stop, or of the dry stop, to compare"
+        decision = evaluation.Decision("inconclusive", None, lacking)
+    verdict = evaluation.verdict_of(criterion, bounds, decision)
     verdicts = (*(each for each in stop.criteria if each.id != criterion.id), verdict)
     passed = stop.figures.passed
     if verdict.status != "pass":
@@ -182,21 +183,3 @@ def _percent_of_dry(criterion: Criterion, stop: SeriesStop, stops: Sequence[Seri
     )
     mean = SpeedStops(stop.speed_kmh * KILOMETRE_PER_HOUR, dry, ()).dry_mean(figure)
     return 100.0 * figure(stop.figures) / mean
-
-
-def _verdict(criterion: Criterion, percent: float) -> evaluation.Verdict:
-    bounds = evaluation.bounds_of(criterion)
-    known = math.isfinite(percent)
-    held = bounds.hold(percent)
-    return evaluation.Verdict(
-        id=criterion.id,
-        layer=criterion.layer,
-        value=percent if known else None,
-        unit=criterion.unit,
-        lower=bounds.lower,
-        upper=bounds.upper,
-        margin=bounds.margin(percent) if known else None,
-        status="inconclusive" if not known else "pass" if held else "fail",
-        reason="" if known else "no value of this stop, or of the dry stop, to compare",
-        measure=criterion.measure,
-    )

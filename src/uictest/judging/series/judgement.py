@@ -1,12 +1,13 @@
-"""A series judged: its stops counted, its measures computed, its criteria applied."""
+"""A series judged: its measures computed, its criteria applied."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from uictest.core.series_measures import SERIES_MEASURES, Rail, SeriesValue, SpeedStops
-from uictest.core.units import KILOMETRE_PER_HOUR, in_unit
+from uictest.core.series_measures import SERIES_MEASURES, Estimate, Rail, SeriesValue, SpeedStops
+from uictest.core.units import KILOMETRE_PER_HOUR, in_unit, value_text
 from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, Outcome
 from uictest.judging.series.counting import (
@@ -17,15 +18,8 @@ from uictest.judging.series.counting import (
     observed_stops,
     with_relations,
 )
-from uictest.judging.series.result import (
-    SeriesCase,
-    SeriesResult,
-    SeriesVerdict,
-    SpeedResult,
-    place_text,
-)
-from uictest.judging.series.verdicts import verdict_of
-from uictest.plans.scenario import Criterion
+from uictest.judging.series.result import SeriesCase, SeriesResult, SeriesVerdict, SpeedResult, place_text
+from uictest.plans.scenario import Criteria, Criterion
 from uictest.plans.series import Role, Series
 
 
@@ -42,7 +36,7 @@ def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
     stops = with_relations(series, observed_stops(cases, tolerance))
     observed = _ObservedSeries(series, stops)
     verdicts = tuple(
-        verdict_of(series, criterion, profile, observed.judged_by(criterion), stops, observed.too_few)
+        _verdict_of(series, criterion, profile, observed.judged_by(criterion), stops, observed.too_few)
         for profile, criterion in series.judged_criteria
     )
     outcome, reason = _outcome(stops, verdicts)
@@ -132,7 +126,6 @@ class _ObservedSeries:
         return SERIES_MEASURES["k_wet"].of_series(groups, self.confidence) if groups else None
 
     def _that(self, criterion: Criterion, role: Role) -> list[SeriesStop]:
-        """Return the stops of a role that a criterion applies to."""
         return [s for s in self.stops if s.role == role and applies(self.series, criterion, s)]
 
     def _groups(self, slippery: Sequence[SeriesStop]) -> list[SpeedStops]:
@@ -186,3 +179,103 @@ def _outcome(stops: Sequence[SeriesStop], verdicts: Sequence[SeriesVerdict]) -> 
     if failed:
         return "error", f"{len(failed)} of {len(stops)} stops failed to run; {failed[0].reason}"
     return evaluation.outcome_of(each.verdict for each in verdicts)
+
+
+def _verdict_of(
+    series: Series,
+    criterion: Criterion,
+    profile: Criteria,
+    speeds: Sequence[SpeedStops],
+    stops: Sequence[SeriesStop],
+    too_few: str,
+) -> SeriesVerdict:
+    """Return the verdict of a criterion; inconclusive where there are too few stops, with that reason."""
+    if too_few:
+        over_series = SeriesVerdict(_without_value(criterion, "inconclusive", too_few))
+    elif criterion.scope == "stop":
+        counted = [stop for stop in stops if stop.counts and stop.role != "bypassed"]
+        over_series = _over_stops(criterion, counted)
+    else:
+        over_series = _over_series(criterion, speeds, float(series.file.confidence))
+    texts = evaluation.definition_texts(criterion, profile, series.stops[0].case.scenario)
+    verdict = replace(over_series.verdict, definition=texts)
+    return replace(over_series, verdict=verdict, of_dry_stop=criterion.of_dry_stop)
+
+
+def _without_value(criterion: Criterion, status: evaluation.Status, reason: str) -> evaluation.Verdict:
+    decision = evaluation.Decision(status, None, reason)
+    return evaluation.verdict_of(criterion, evaluation.bounds_of(criterion), decision)
+
+
+def _over_stops(criterion: Criterion, stops: Sequence[SeriesStop]) -> SeriesVerdict:
+    """Return the verdict on a measure of stops: it holds if every stop that it applies to keeps it."""
+    verdicts = [verdict for stop in stops if (verdict := stop.verdict(criterion.id)) is not None]
+    judged = [verdict for verdict in verdicts if verdict.status != "not_applicable"]
+    if not judged:
+        reason = "it applies to none of the stops that count"
+        return SeriesVerdict(_without_value(criterion, "not_applicable", reason))
+    kept = sum(verdict.status == "pass" for verdict in judged)
+    failed = any(verdict.status == "fail" for verdict in judged)
+    status: evaluation.Status = "fail" if failed else "pass" if kept == len(judged) else "inconclusive"
+    known = [verdict for verdict in judged if verdict.margin is not None]
+    worst = min(known, key=lambda verdict: verdict.margin or 0.0).value if known else None
+    reason = "" if status == "pass" else f"{kept} of {len(judged)} stops keep it"
+    decision = evaluation.Decision(status, worst, reason)
+    verdict = evaluation.verdict_of(criterion, evaluation.bounds_of(criterion), decision)
+    return SeriesVerdict(verdict, kept=kept, stops=len(judged))
+
+
+def _over_series(criterion: Criterion, speeds: Sequence[SpeedStops], confidence: float) -> SeriesVerdict:
+    """Return the verdict on a measure of series: at the speed and rail that are nearest to missing a bound.
+
+    What counts all stops together does so on each rail: stops on one do not outvote those on another.
+    """
+    if not speeds:
+        reason = "it applies to none of the wet stops"
+        return SeriesVerdict(_without_value(criterion, "not_applicable", reason))
+    measure = SERIES_MEASURES[criterion.measure]
+    value_over = measure.percent_of_dry if criterion.of_dry_stop else measure.of_series
+    together = measure.groups(speeds)
+    values = [value_over(group, confidence) for group in together]
+    estimates = [value.estimate for value in values if value.estimate is not None]
+    if len(estimates) < len(values) or not values:
+        reason = next((value.unavailable_reason for value in values if value.estimate is None), "no stop")
+        return SeriesVerdict(_without_value(criterion, "inconclusive", reason))
+    bounds = evaluation.bounds_of(criterion)
+    margins = [bounds.margin(estimate.value) for estimate in estimates]
+    deciding = margins.index(min(margins))
+    estimate, decisive = estimates[deciding], together[deciding][0]
+    of_one_speed = None if measure.pooled else round(decisive.speed / KILOMETRE_PER_HOUR, 9)
+    status: evaluation.Status = "pass" if bounds.hold(estimate.value) else "fail"
+    reason = ""
+    if status == "fail":
+        position = place_text(of_one_speed, decisive.rail)
+        value = value_text(estimate.value, bounds.unit) + (f" from {position}" if position else "")
+        reason = f"{value} misses {bounds.text} by {value_text(-margins[deciding], bounds.unit)}"
+    verdict = evaluation.verdict_of(criterion, bounds, evaluation.Decision(status, estimate.value, reason))
+    confident = _confident(estimates, bounds, status)
+    return SeriesVerdict(verdict, estimate, confident, of_one_speed, rail=decisive.rail)
+
+
+def _confident(
+    estimates: Sequence[Estimate], bounds: evaluation.Bounds, status: evaluation.Status
+) -> bool | None:
+    """Return whether the verdict is the same wherever in their intervals the values of all speeds lie.
+
+    One speed that misses for certain makes a miss certain. None: for lack of an interval nobody knows. The
+    interval of the largest or smallest value is of the dry stops alone: it makes no pass certain. Nor is one
+    over dry stops that show no scatter.
+    """
+    hold = [
+        bounds.hold_throughout(estimate.low, estimate.high)
+        for estimate in estimates
+        if not (math.isnan(estimate.low) or math.isnan(estimate.high))
+    ]
+    if status == "fail" and False in hold:
+        return True
+    if status == "pass" and (None in hold or not all(estimate.dry_scatter for estimate in estimates)):
+        return False
+    extreme = any(estimate.method in ("largest", "smallest") for estimate in estimates)
+    if len(hold) < len(estimates) or (status == "pass" and extreme):
+        return None
+    return status == "pass"

@@ -9,8 +9,8 @@ from pydantic import TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.core.units import KINDS
+from uictest.plans.scenario.expansion import Vary
 from uictest.plans.scenario.model import Scenario
-from uictest.plans.scenario.parts.vary import Vary
 from uictest.plans.scenario.resolution import PART_KEYS, PART_KINDS
 from uictest.plans.scenario.train import TrainCar
 from uictest.plans.scenario.yaml import QUANTITY_KEYWORD, Quantity, QuantityField, written

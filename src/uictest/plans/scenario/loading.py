@@ -1,52 +1,78 @@
-"""From files to cases."""
+"""From files to cases, and from names on a command line to parts."""
 
+import ast
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
-from uictest.plans.scenario.case import Case, TrainPlace, with_another_controller
-from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
-from uictest.plans.scenario.files import Files, Roots, scenario_trees
-from uictest.plans.scenario.identifiers import (
+from uictest.plans.scenario.case import (
     CAR,
     CONTROLLER,
     EXPECT,
     LONGEST,
+    Case,
     Labels,
+    TrainPlace,
     case_id,
     controller_labels,
     duplicate_id,
     sets_controller,
     short_keys,
+    with_another_controller,
 )
-from uictest.plans.scenario.model import Scenario
-from uictest.plans.scenario.overrides import OF_CAR, Override, apply_overrides, parse_overrides, with_value
-from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
-from uictest.plans.scenario.references import Parts
-from uictest.plans.scenario.resolution import with_default_parts
-from uictest.plans.scenario.resolved_cars import reaching_no_car, resolved_cars
+from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
+from uictest.plans.scenario.overrides import (
+    OF_CAR,
+    Override,
+    apply_overrides,
+    changed_alone,
+    overridden_alone,
+    parse_overrides,
+    with_value,
+)
+from uictest.plans.scenario.parts.controller import ControllerPart
+from uictest.plans.scenario.programs import KIND_OF_ENDING, SOCKET
+from uictest.plans.scenario.resolution import (
+    PART_KEYS,
+    PART_KINDS,
+    Parts,
+    folder_of,
+    is_path,
+    with_default_parts,
+)
 from uictest.plans.scenario.train import (
     is_older,
     is_train,
+    reaching_no_car,
+    resolved_cars,
     with_default_vehicles,
     without_inherited_vehicle,
 )
 from uictest.plans.scenario.yaml import (
+    COMMAND_LINE,
     SCENARIO_SCHEMA,
     Diagnostic,
     Document,
     Entry,
+    Files,
+    Location,
     Map,
+    Part,
+    Roots,
     Scalar,
     ScenarioErrors,
     as_written,
     collecting,
     display_name,
-    in_reading_order,
     inherit,
+    is_file,
+    is_null,
     quoted,
+    require_none,
     require_schema,
+    scenario_trees,
     single_error,
+    unreadable_error,
     whole_file,
 )
 
@@ -85,8 +111,7 @@ def load(
         for path, tree in scenario_trees(paths, loader.parts.files, loader.diagnostics)
         for loaded in loader.loaded(path, tree)
     ]
-    if loader.diagnostics:
-        raise ScenarioErrors(in_reading_order(loader.diagnostics))
+    require_none(loader.diagnostics)
     return cases
 
 
@@ -105,8 +130,7 @@ def load_with_trees(
     """
     loader = _Loader(parts, tuple(overrides), varied=varied)
     loaded = list(loader.loaded(path, parts.files.at(path)))
-    if loader.diagnostics:
-        raise ScenarioErrors(in_reading_order(loader.diagnostics))
+    require_none(loader.diagnostics)
     return loaded
 
 
@@ -122,11 +146,6 @@ class _ScenarioFile(NamedTuple):
     ids: dict[str, Variant]
     inherits_expectation: bool
     """Whether it stands in a parent of the file that names the controller."""
-
-
-def _conditions(variant: Variant) -> Variant:
-    """Return what a case has of its own, but for what is expected of it: that is no condition of a stop."""
-    return tuple(each for each in variant if OF_CAR.sub("", each.key) != EXPECT)
 
 
 class _Loader:
@@ -181,7 +200,7 @@ class _Loader:
     def _without_vary(self, own: Map, merged: Map) -> tuple[Map, Entry | None]:
         """Take off what a sweep varies. Raises ScenarioErrors where the file should be none, or is none."""
         vary = merged.entries.get("vary")
-        if vary is not None and isinstance(vary.node, Scalar) and vary.node.value is None:
+        if vary is not None and is_null(vary.node):
             vary = None
         if not self.varied:
             if vary is not None:
@@ -194,7 +213,7 @@ class _Loader:
                 raise single_error(entry.key, message, key, "list what a sweep varies under `vary`")
         if vary is None:
             hint = "a scenario without `vary` is run with `uictest run`"
-            raise single_error(own.place, "nothing varies", "vary", hint)
+            raise single_error(own.location, "nothing varies", "vary", hint)
         return merged.without("vary", *EXPANSION_KEYS), vary
 
     def _parent(self, reference: Scalar) -> Map:
@@ -207,46 +226,27 @@ class _Loader:
         """Return the case of a variant; of a train those of its cars, which name each other."""
         tree = self._varied(file.tree, variant)
         cars = resolved_cars(file.path, tree, self.parts)
-        given = {each.key: Entry(each.place, each.values[0]) for each in self.overrides}
+        given = {each.key: Entry(each.location, each.values[0]) for each in self.overrides}
         given |= {setting.key: setting.value for setting in variant}
         self.diagnostics.extend(reaching_no_car(tree, given))
         expects = any(OF_CAR.sub("", key) == EXPECT for key in given)
         if (file.inherits_expectation or sets_controller(given)) and not expects:
             cars = [((with_another_controller(own), read), car) for (own, read), car in cars]
         scenarios = tuple(scenario for (scenario, _), _ in cars)
-        named = scenarios[0].name, _conditions(variant), file.short, file.labels
-        if not is_train(tree):
-            return [self._case(file, variant, case_id(*named), *cars[0])]
-        read = tuple(document for (_, documents), _ in cars for document in documents)
-        return [
-            self._case(
-                *(file, variant, case_id(*named, car=number)),
-                *((scenario, read), tree if self.varied else car),
-                TrainPlace(case_id(*named), number, scenarios),
-            )
-            for number, ((scenario, _), car) in enumerate(cars, start=1)
-        ]
-
-    def _case(
-        self,
-        file: _ScenarioFile,
-        variant: Variant,
-        identifier: str,
-        resolved: tuple[Scenario, tuple[Document, ...]],
-        tree: Map,
-        train: TrainPlace | None = None,
-    ) -> LoadedCase:
-        scenario, documents = resolved
-        swept = {setting.key: as_written(setting.value.node) for setting in _conditions(variant)}
-        case = Case(
-            id=self._claimed(identifier, file, variant),
-            scenario=scenario,
-            path=Path(display_name(file.path)),
-            parameters=swept if train is None else {**swept, CAR: str(train.number)},
-            inputs={each.display: each.sha256 for each in (*file.documents, *documents) if each.sha256},
-            train=train,
-        )
-        return LoadedCase(case, tree, file.vary)
+        # What is expected is no condition of a stop.
+        conditions = tuple(each for each in variant if OF_CAR.sub("", each.key) != EXPECT)
+        named = scenarios[0].name, conditions, file.short, file.labels
+        swept = {setting.key: as_written(setting.value.node) for setting in conditions}
+        read = [*file.documents, *(document for (_, documents), _ in cars for document in documents)]
+        inputs = {each.display: each.sha256 for each in read if each.sha256}
+        path, is_coupled, loaded = Path(display_name(file.path)), is_train(tree), list[LoadedCase]()
+        for number, ((scenario, _), car) in enumerate(cars, start=1):
+            identifier = self._claimed(case_id(*named, car=number if is_coupled else 0), file, variant)
+            parameters = {**swept, CAR: str(number)} if is_coupled else swept
+            train = TrainPlace(case_id(*named), number, scenarios) if is_coupled else None
+            case = Case(identifier, scenario, path, parameters, inputs, train)
+            loaded.append(LoadedCase(case, tree if self.varied else car, file.vary))
+        return loaded
 
     def _varied(self, base: Map, variant: Variant) -> Map:
         """The tree with the values of one case; settings that fail are reported and skipped."""
@@ -262,11 +262,11 @@ class _Loader:
 
     def _claimed(self, identifier: str, file: _ScenarioFile, variant: Variant) -> str:
         """The id. Raises ScenarioErrors if it is too long or another case has it."""
-        name = file.tree.entries["name"].node.place
-        place = variant[-1].value.node.place if variant else name
+        name = file.tree.entries["name"].node.location
+        location = variant[-1].value.node.location if variant else name
         if len(identifier) > LONGEST:
             raise single_error(
-                place, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
+                location, f"the case id {quoted(identifier)} is longer than {LONGEST} characters", "name"
             )
         other = self.file_of_id.setdefault(identifier, file)
         if other is not file:
@@ -276,3 +276,119 @@ class _Loader:
             raise duplicate_id(identifier, variant, file.ids[identifier])
         file.ids[identifier] = variant
         return identifier
+
+
+def load_part(reference: str) -> Part:
+    """The library part called ``folder/name``, e.g. ``vehicles/intercity-180``.
+
+    Raises ScenarioErrors when there is none, KeyError when there is no such folder.
+    """
+    folder, _, name = reference.partition("/")
+    models = {folder_of(each.model): each.model for each in PART_KEYS.values()}
+    if folder not in models:
+        raise KeyError(folder)
+    location = Location(Document(reference, Path(), reference), 1, len(folder) + 2)
+    part: Part = Parts(Files()).part(Scalar(name, name, location), models[folder], (folder,)).part
+    return part
+
+
+def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
+    """The part that a file describes, of any kind.
+
+    References stay at or below the file's folder, the working folder and the ``trusted`` folders. Raises
+    ScenarioErrors.
+    """
+    files = Files(Roots.of([path], trusted))
+    tree = files.at(path)
+    schema = tree.get("schema")
+    models = {f"uictest/{kind}/1": PART_KEYS[key].model for key, kind in PART_KINDS.items()}
+    if not isinstance(schema, Scalar) or schema.text not in models:
+        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else "none"
+        location = tree.location if schema is None else schema.location
+        raise single_error(
+            location, f"not a part: its schema is {schema_text}", "schema", f"accepted: {', '.join(models)}"
+        )
+    part: Part = _part_in(path, files, models[schema.text])
+    return part
+
+
+def _part_in(path: Path, files: Files, model: Any) -> Any:
+    name = Scalar(path.name, path.name, Location(Document(str(path), path.parent, path.name)))
+    return Parts(files).part(name, model, ()).part
+
+
+def load_controller(
+    reference: str, class_name: str = "", trusted: Sequence[Path] = (), library: Path | None = None
+) -> ControllerPart:
+    """The controller that ``reference`` names.
+
+    Args:
+        reference: a part file or a scenario file, the file of a program, the address of a socket, or the name
+            of a controller of the library or of an installed package.
+        class_name: class in a Python file; where it has one controller alone this may be left out.
+        trusted: folders that may be read besides those of the files given and the working folder.
+        library: takes the place of the one that a part file names, which need not be there.
+
+    Raises:
+        ScenarioErrors: when there is none, or a scenario has cases with several.
+    """
+    path, model = Path(reference), PART_KEYS["controller",].model
+    files = Files(Roots.of([path], trusted))
+    controller: ControllerPart
+    if not (is_path(reference) and is_file(path)):
+        controller = Parts(files).part(_node(reference, path, class_name), model, ()).part
+        return controller
+    if library is not None:
+        places = {
+            key: (Location(Document(COMMAND_LINE, file.parent, file.name)), file.name)
+            for key, file in (("extends", path), ("library", library))
+        }
+        entries = {
+            key: Entry(location, Scalar(name, name, location)) for key, (location, name) in places.items()
+        }
+        node = Map(entries, places["extends"][0])
+        controller = Parts(Files(Roots.of([path, library], trusted))).part(node, model, ()).part
+        return controller
+    schema = files.at(path).get("schema")
+    if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
+        controller = _part_in(path, files, model)
+        return controller
+    controller, *others = [case.scenario.controller for case in load([path], trusted=trusted)]
+    if any(other != controller for other in others):
+        hint = "name the file of one of them"
+        raise single_error(whole_file(path), "its cases have different controllers", "controller", hint)
+    return controller
+
+
+def _node(reference: str, path: Path, class_name: str) -> Any:
+    location = Location(Document(display_name(path), path.parent, reference))
+    kind = "connect" if reference.startswith(SOCKET) else KIND_OF_ENDING.get(path.suffix.lower())
+    if kind is None:
+        return Scalar(reference, reference, location)
+    text = reference if kind == "connect" else path.name
+    entries = {kind: Entry(location, Scalar(text, text, location))}
+    if kind == "python":
+        name = class_name or _only_controller(path)
+        entries["class"] = Entry(location, Scalar(name, name, location))
+    return Map(entries, location)
+
+
+def _only_controller(path: Path) -> str:
+    """Return the class of a Python file that has a method `step`; the file is read, not run."""
+    try:
+        module = ast.parse(path.read_bytes(), path.name)
+    except OSError as error:
+        raise unreadable_error(whole_file(path), error) from None
+    except (SyntaxError, ValueError) as error:
+        raise single_error(whole_file(path), f"not Python: {error}") from None
+    names = [
+        each.name
+        for each in module.body
+        if isinstance(each, ast.ClassDef)
+        and any(isinstance(inner, ast.FunctionDef) and inner.name == "step" for inner in each.body)
+    ]
+    if len(names) != 1:
+        listed = ", ".join(map(quoted, names)) or "none"
+        message = f"which class is the controller? Those with a method step: {listed}"
+        raise single_error(whole_file(path), message, hint="name it with --class")
+    return names[0]

@@ -2,50 +2,164 @@
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BeforeValidator
 
 from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
 from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
-from uictest.plans.scenario.brake_force import largest_braking_force, largest_clamping_force
-from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
-from uictest.plans.scenario.courses import endless_stop, impossible_courses
-from uictest.plans.scenario.expectation import PASS, Expect
-from uictest.plans.scenario.fault_checks import impossible_faults
 from uictest.plans.scenario.feasibility import (
-    RIG_CHECKS,
-    ValveConductances,
+    endless_stop,
+    impossible_courses,
     impossible_pole_wheels,
+    impossible_sanders,
+    largest_braking_force,
+    largest_clamping_force,
     limit_of_air,
     limit_of_vehicle,
     line_leak,
-    rig_checks,
     tank_leak,
 )
-from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
+from uictest.plans.scenario.parts.brake import Brake, never_requested
+from uictest.plans.scenario.parts.compensation import (
+    COMPENSATION_SETTINGS,
+    Compensation,
+    unresolved_air,
+    unresolved_cylinder,
+)
 from uictest.plans.scenario.parts.controller import Controller
-from uictest.plans.scenario.parts.coupler import Coupler
-from uictest.plans.scenario.parts.criteria import Criteria
-from uictest.plans.scenario.parts.fault import Fault
+from uictest.plans.scenario.parts.criteria import RIG_CHECKS, Criteria, criteria_of_the_same_name, rig_checks
+from uictest.plans.scenario.parts.equipment import Caliper, Sensors
+from uictest.plans.scenario.parts.fault import Fault, impossible_faults
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
-from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
-from uictest.plans.scenario.parts.record import Record, RecordTolerances, check_id
-from uictest.plans.scenario.parts.sand import Sander, impossible_sanders
-from uictest.plans.scenario.parts.track_brake import never_requested
-from uictest.plans.scenario.parts.vehicle import Vehicle
-from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
-from uictest.plans.scenario.sections import Brake, Drag, Rail, Rig, Simulation, load_share
+from uictest.plans.scenario.parts.named_file import (
+    PASS,
+    Expect,
+    OutcomeOfRepeats,
+    Repeat,
+    TestFile,
+    seeds_too_large,
+)
+from uictest.plans.scenario.parts.rail import Rail, Sander
+from uictest.plans.scenario.parts.vehicle import (
+    WHEELSET_NUMBERS,
+    Coupler,
+    Vehicle,
+    distinct_values,
+    load_share,
+    wheelset_value,
+)
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
+    Model,
     PartReference,
     Quantity,
+    default,
+    field,
+    of_kind,
+    optional,
     quantities_in,
+    quantity,
     quoted,
+    refused,
     unknown_sources,
 )
-from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity
+
+
+class RecordTolerances(Model):
+    """Beyond which a record contradicts its scenario. Every default is chosen."""
+
+    initial_speed: Quantity = quantity(
+        "Difference between the initial speeds.", "speed", "0 km/h .. 100 km/h", default="3 km/h"
+    )
+    deceleration: Quantity = quantity(
+        "Mean deceleration over what the brake can give.", "number", "1 .. 100", default="1.2"
+    )
+    vacuum: Quantity = quantity(
+        "Pressure below that of the surroundings.", "pressure", "0 bar .. 100 bar", default="1.013 bar"
+    )
+    pressure_fall: Quantity = quantity(
+        "Fall of a pressure while the brake is applied.", "pressure", "0 bar .. 100 bar", default="0.1 bar"
+    )
+    demanded_pressure: Quantity = quantity(
+        "Difference of the demanded pressure from the command.", "share", "0 % .. 1000 %", default="15 %"
+    )
+    duration: Quantity = quantity(
+        "Time to lose 10 or 90 % of the speed over what the brake needs.", "number", "1 .. 1000", default="10"
+    )
+
+
+class Record(Model):
+    """What is checked of a recorded stop."""
+
+    tolerances: RecordTolerances = field("Tolerances of the checks.", default=RecordTolerances())
+
+
+def check_id(name: str) -> str:
+    """Return what the verdict of the check with a tolerance is called."""
+    return f"record-{name.replace('_', '-')}"
+
+
+class Rig(Model):
+    """How the rig is built up."""
+
+    topology: Literal["one-caliper", "four-caliper"] = field(
+        "One caliper and three tanks, or a caliper in every module.", default="one-caliper"
+    )
+    compensation: Literal["none", "hysteresis", "cylinder", "full", "thermal"] = field(
+        "What the modules without a caliper compute: hysteresis with the air of the caliper's"
+        " module (thermal); or, as in the paper, hysteresis, cylinder dynamics, both (full) or none.",
+        default="thermal",
+    )
+    wsp: Literal["active", "bypassed"] = field(
+        "Whether the WSP valves obey the controller or always fill.", default="active"
+    )
+    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = field(
+        "The caliper: a library name, a relative path or an inline mapping."
+    )
+    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = field(
+        "The compensation: a library name, a relative path or an inline mapping."
+    )
+    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = field(
+        "The sensors: a library name, a relative path or an inline mapping."
+    )
+
+
+class Drag(Model):
+    """Drag braking: traction holds a speed while the brake acts."""
+
+    speed: Quantity = quantity(
+        "Speed that is held from when the train comes down to it.", "speed", "1 km/h .. 600 km/h"
+    )
+    duration: Quantity = quantity("Time for which it is held.", "time", "0.1 s .. 3600 s")
+
+
+SURVEY: Final = "survey"
+"""The time step of a whole sweep whose results are to come fast, with a known bias."""
+
+
+def _no_survey(value: object) -> object:
+    if value == SURVEY:
+        hint = f"uictest sweep ... --set simulation.time_step={SURVEY}, or alone under `vary.matrix`"
+        raise refused(f"{quoted(SURVEY)} is the time step of a whole sweep", hint)
+    return value
+
+
+class Simulation(Model):
+    """How the stop is simulated."""
+
+    time_step: Annotated[Quantity, of_kind("time", "0.01 ms .. 1 ms"), BeforeValidator(_no_survey)] = field(
+        "Base step; a whole number of them makes a controller cycle.", default=default("0.5 ms", "time")
+    )
+    maximum_duration: Quantity = quantity(
+        "Simulated time after which a stop is aborted; what is undecided then is inconclusive.",
+        "time",
+        "> 0 s .. 3600 s",
+        default="180 s",
+    )
 
 
 class Scenario(TestFile):
@@ -104,25 +218,8 @@ class Scenario(TestFile):
     seed: int = field("Seed of noise and random rails.", default=0, ge=0, le=2**32 - 1, strict=True)
     repeat: Repeat = 1
     outcome_of_repeats: OutcomeOfRepeats = "all"
-    firm: bool = field(
-        "Whether `uictest run` finds out how firm the verdicts are, as with --firm.",
-        default=False,
-        strict=True,
-    )
     simulation: Simulation = field("Step and longest duration.", default=Simulation())
     record: Record = field("Checks of a recorded stop.", default=Record())
-    matrix: dict[str, Any] | None = optional(
-        "Lists of values by dotted key; every combination is a case, first key slowest."
-    )
-    zip: dict[str, Any] | None = optional(
-        "Lists of equal length by dotted key; values at the same place make a case."
-    )
-    include: tuple[dict[str, Any], ...] | None = optional(
-        "Further cases, each a mapping of dotted keys to values."
-    )
-    exclude: tuple[dict[str, Any], ...] | None = optional(
-        "Cases to leave out: those with exactly these values."
-    )
     vary: dict[str, Any] | None = optional(
         "What `uictest sweep` varies: lists, ranges and distributions of values."
     )
@@ -183,7 +280,7 @@ class Scenario(TestFile):
         system = self.brake.system
         smallest_tank = min(system.tank.volume, self.tank_volume_with_caliper)
         valves = [
-            ValveConductances(
+            (
                 wheelset_value(self, number, "wsp_valve.fill_conductance"),
                 wheelset_value(self, number, "wsp_valve.vent_conductance") + tank_leak(self, number),
             )
@@ -225,16 +322,7 @@ class Scenario(TestFile):
         if all(profile.name != RIG_CHECKS for profile in self.criteria):
             profile_of |= {criterion.id: RIG_CHECKS for criterion in rig_checks().criteria}
         profile_of |= dict.fromkeys(map(check_id, RecordTolerances.model_fields), "checks of a record")
-        for number, profile in enumerate(self.criteria):
-            for index, criterion in enumerate(profile.criteria):
-                if criterion.id in profile_of:
-                    yield Inconsistency(
-                        ("criteria", number, "criteria", index, "id"),
-                        f"criterion {quoted(criterion.id)} of profile {quoted(profile.name)} is in profile"
-                        f" {quoted(profile_of[criterion.id])} as well",
-                        "leave one profile out, or give the criterion another id",
-                    )
-            profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
+        yield from criteria_of_the_same_name(self.criteria, profile_of)
 
     def _calipers_that_are_not_there(self) -> Iterator[Inconsistency]:
         """Yield values of a wheelset's own caliper where its module is a tank: nothing would read them."""

@@ -1,37 +1,43 @@
-"""Set dotted keys of a scenario's tree, for one case or by `--set`; lists and ranges there become axes."""
+"""Values at dotted keys: set in a tree, read from the command line, and checked for the rail's friction."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from uictest.plans.scenario.resolution import DOTTED_PART_KEYS
+from uictest.plans.scenario.expansion import EXPANSION_KEYS
+from uictest.plans.scenario.resolution import DOTTED_PART_KEYS, PART_KEYS
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
     DEEPEST,
     Diagnostic,
     Document,
     Entry,
+    List,
+    Location,
     Map,
     Node,
-    Place,
     Scalar,
     ScenarioErrors,
-    Sequence as List,
+    as_written,
     common_unit,
     count_by_step,
     describe,
+    diagnose,
+    is_null,
     parse,
     parse_decimal_quantity,
     quantity_text,
     quoted,
+    read_each,
     single_error,
     spaced_by_step,
+    visible,
 )
 
 FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude", "vary"})
 """Keys that belong to the file and not to a case."""
-
 OF_CAR: Final = re.compile(r"^train\.\d+\.")
 """Before a key that a car of a train has of its own."""
 
@@ -61,11 +67,11 @@ def _assigned(tree: Map, elements: list[str], value: Entry, above: str) -> Map:
     if not rest:
         return tree.with_entry(first, value)
     key, node = f"{above}{first}", tree.get(first)
-    place = tree.entries[first].key if first in tree.entries else value.key
+    location = tree.entries[first].key if first in tree.entries else value.key
     if isinstance(node, List):
-        return tree.with_entry(first, Entry(place, _assigned_in(node, rest, value, key)))
+        return tree.with_entry(first, Entry(location, _assigned_in(node, rest, value, key)))
     inner = _mapping(node, key, value.key)
-    return tree.with_entry(first, Entry(place, _assigned(inner, rest, value, f"{key}.")))
+    return tree.with_entry(first, Entry(location, _assigned(inner, rest, value, f"{key}.")))
 
 
 def _assigned_in(listed: List, elements: list[str], value: Entry, key: str) -> List:
@@ -83,21 +89,20 @@ def _assigned_in(listed: List, elements: list[str], value: Entry, key: str) -> L
         node = _assigned(_mapping(node, below, value.key), rest, value, f"{below}.")
     else:
         node = value.node
-    return List((*listed.items[:number], node, *listed.items[number + 1 :]), listed.place)
+    return List((*listed.items[:number], node, *listed.items[number + 1 :]), listed.location)
 
 
-def _mapping(node: Node | None, key: str, place: Place) -> Map:
+def _mapping(node: Node | None, key: str, location: Location) -> Map:
     if node is None:
-        return Map({}, place)
+        return Map({}, location)
     if isinstance(node, Map):
         return node
     if isinstance(node, Scalar) and OF_CAR.sub("", key) in DOTTED_PART_KEYS:
-        return Map({"extends": Entry(node.place, node)}, place)
-    raise single_error(place, f"{quoted(key)} is {describe(node)} and has no keys of its own", key)
+        return Map({"extends": Entry(node.location, node)}, location)
+    raise single_error(location, f"{quoted(key)} is {describe(node)} and has no keys of its own", key)
 
 
 MOST_VALUES: Final = 10_000
-
 _RANGE = re.compile(r"\s*range\((.*)\)\s*")
 _OPENING, _CLOSING, _QUOTES = "([{", ")]}", "\"'"
 
@@ -110,25 +115,17 @@ class Override(NamedTuple):
     """
 
     key: str
-    place: Place
+    location: Location
     values: tuple[Node, ...]
     swept: bool = False
 
 
 def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, ...]:
     """Read ``--set`` options and the ``--seed`` option. Raises ScenarioErrors with the errors of all."""
-    diagnostics: list[Diagnostic] = []
-    overrides: list[Override] = []
-    for text in texts:
-        try:
-            overrides.append(_parse(Document(COMMAND_LINE, Path(), text)))
-        except ScenarioErrors as errors:
-            diagnostics.extend(errors.diagnostics)
-    if diagnostics:
-        raise ScenarioErrors(diagnostics)
+    overrides = read_each(_parse, (Document(COMMAND_LINE, Path(), text) for text in texts))
     if seed is not None:
-        place = Place(Document("--seed", Path(), str(seed)))
-        overrides.append(Override("seed", place, (Scalar(seed, str(seed), place),)))
+        location = Location(Document("--seed", Path(), str(seed)))
+        overrides.append(Override("seed", location, (Scalar(seed, str(seed), location),)))
     return tuple(overrides)
 
 
@@ -136,11 +133,11 @@ def _parse(document: Document) -> Override:
     key, equals, value = document.text.partition("=")
     if not equals or not key.strip():
         hint = "write --set key=value, for example --set rail.friction=0.10"
-        raise single_error(Place(document), f"{quoted(document.text)} is not a key and a value", hint=hint)
+        raise single_error(Location(document), f"{quoted(document.text)} is not a key and a value", hint=hint)
     values = [
         node for start, piece in _pieces(value) for node in _values(document, len(key) + 2 + start, piece)
     ]
-    return Override(key.strip(), Place(document), tuple(values))
+    return Override(key.strip(), Location(document), tuple(values))
 
 
 def _pieces(text: str) -> Iterator[tuple[int, str]]:
@@ -162,31 +159,31 @@ def _pieces(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _values(document: Document, column: int, piece: str) -> Iterator[Node]:
-    place = Place(document, 1, column)
+    location = Location(document, 1, column)
     if not piece.strip():
-        raise single_error(place, "an empty value", hint="write null for nothing")
+        raise single_error(location, "an empty value", hint="write null for nothing")
     match = _RANGE.fullmatch(piece)
     if match is None:
         yield parse(document, 1, column, piece)
         return
-    for text in _range(match[1], place):
+    for text in _range(match[1], location):
         yield parse(document, 1, column, text)
 
 
-def _range(arguments: str, place: Place) -> list[str]:
+def _range(arguments: str, location: Location) -> list[str]:
     """The values of ``range(first,last,step)`` as texts, with the last one where a step lands on it."""
     try:
         first, last, step = map(parse_decimal_quantity, arguments.split(","))
     except ValueError:
         hint = "write range(first,last,step): range(0.09,0.12,0.01)"
-        raise single_error(place, "not a range of numbers", hint=hint) from None
+        raise single_error(location, "not a range of numbers", hint=hint) from None
     if common_unit([first, last, step]) is None:
-        raise single_error(place, "the three numbers of a range must have the same unit")
+        raise single_error(location, "the three numbers of a range must have the same unit")
     count = count_by_step(first.number, last.number, step.number)
     if count == 0:
-        raise single_error(place, f"a step of {step} never leads from {first} to {last}")
+        raise single_error(location, f"a step of {step} never leads from {first} to {last}")
     if count > MOST_VALUES:
-        raise single_error(place, f"a range of {count} values; at most {MOST_VALUES} are accepted")
+        raise single_error(location, f"a range of {count} values; at most {MOST_VALUES} are accepted")
     numbers = spaced_by_step(first.number, last.number, step.number)
     return [quantity_text(number, first.unit) for number in numbers]
 
@@ -196,7 +193,7 @@ def apply_overrides(tree: Map, overrides: Sequence[Override]) -> Map:
     for override in overrides:
         tree = without_axis(tree, override.key)
         if len(override.values) == 1 and not override.swept:
-            tree = with_value(tree, override.key, Entry(override.place, override.values[0]))
+            tree = with_value(tree, override.key, Entry(override.location, override.values[0]))
         else:
             tree = _with_axis(tree, override)
     return tree
@@ -205,9 +202,9 @@ def apply_overrides(tree: Map, overrides: Sequence[Override]) -> Map:
 def _with_axis(tree: Map, override: Override) -> Map:
     matrix = tree.get("matrix")
     if not isinstance(matrix, Map):
-        matrix = Map({}, override.place)
-    axis = Entry(override.place, List(override.values, override.place))
-    return tree.with_entry("matrix", Entry(override.place, matrix.with_entry(override.key, axis)))
+        matrix = Map({}, override.location)
+    axis = Entry(override.location, List(override.values, override.location))
+    return tree.with_entry("matrix", Entry(override.location, matrix.with_entry(override.key, axis)))
 
 
 def without_axis(tree: Map, key: str) -> Map:
@@ -236,4 +233,75 @@ def _section_without(node: Node, key: str, section: str) -> Node | None:
     if section == "include":
         kept = [item.without(key) if isinstance(item, Map) else item for item in node.items]
         kept = [item for item in kept if not isinstance(item, Map) or item.entries]
-    return List(tuple(kept), node.place) if kept else None
+    return List(tuple(kept), node.location) if kept else None
+
+
+FRICTION: Final = "rail.friction"
+CONDITION: Final = "rail.condition"
+_CONDITION: Final = ("rail", "condition")
+
+
+def sets_friction(key: str) -> bool:
+    """Whether a dotted key is that of the friction or lies inside it."""
+    return f"{key}.".startswith(f"{FRICTION}.")
+
+
+def changed_alone(before: Map, after: Map) -> Iterator[Diagnostic]:
+    """Yield a change of the condition from ``before`` to ``after`` that leaves `rail.friction` as it was.
+
+    A friction of the command line is meant for every case.
+    """
+    friction = after.at("rail", "friction")
+    of_command_line = friction is not None and friction.location.document.display == COMMAND_LINE
+    if friction is before.at("rail", "friction") and not of_command_line:
+        yield from _conflict(before, after, friction)
+
+
+def overridden_alone(tree: Map, overrides: Sequence[Override]) -> Iterator[Diagnostic]:
+    """Yield the overrides of the condition that leave a friction of the file in force, swept or not."""
+    if any(sets_friction(override.key) for override in overrides):
+        return
+    swept = (each for section in EXPANSION_KEYS[:-1] for each in _frictions(tree.get(section)))
+    friction = next(swept, tree.at("rail", "friction"))
+    for override in overrides:
+        if override.key.startswith(CONDITION):
+            for value in override.values:
+                with suppress(ScenarioErrors):  # reported where it is applied
+                    changed = with_value(tree, override.key, Entry(override.location, value))
+                    yield from _conflict(tree, changed, friction)
+
+
+def _conflict(before: Map, after: Map, friction: Node | None) -> Iterator[Diagnostic]:
+    condition = after.at(*_CONDITION)
+    if is_null(friction) or friction is None or condition is None:
+        return
+    if _surface(condition) != _surface(before.at(*_CONDITION)):
+        written = friction.location
+        yield diagnose(
+            condition.location,
+            f"the rail condition changes, but rail.friction stays {quoted(as_written(friction))}"
+            f" ({visible(written.document.display)}:{written.line})",
+            CONDITION,
+            "set rail.friction as well; null takes the friction of the condition",
+        )
+
+
+def _surface(condition: Node | None) -> tuple[str, str]:
+    """Name and friction of a condition; its other numbers hold for any friction."""
+    if condition is None:
+        return PART_KEYS[_CONDITION].default, ""
+    if not isinstance(condition, Map):
+        return as_written(condition), ""
+    return _text(condition.get("extends")), _text(condition.get("friction"))
+
+
+def _text(node: Node | None) -> str:
+    return "" if node is None else as_written(node)
+
+
+def _frictions(section: Node | None) -> Iterable[Node]:
+    if isinstance(section, List):
+        return (friction for item in section.items for friction in _frictions(item))
+    return (
+        [section.entries[FRICTION].node] if isinstance(section, Map) and FRICTION in section.entries else []
+    )

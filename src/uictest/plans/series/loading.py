@@ -32,29 +32,29 @@ from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     SERIES_SCHEMA,
     VALIDATION_SCHEMA,
-    Diagnostic,
     Document,
     Inconsistency,
+    List,
     Map,
     Model,
     Node,
     Quantity,
     Scalar,
-    ScenarioErrors,
-    Sequence as List,
     as_written,
     display_name,
     field,
-    in_reading_order,
     optional,
     plain,
     quantity,
+    read_each,
     read_file,
+    require_none,
     require_schema,
     validated,
 )
-from uictest.plans.series.listing import (
-    Stop,
+from uictest.plans.series.model import DEFAULT_CRITERIA, Recorded, Series, SeriesFile
+from uictest.plans.series.stops import (
+    StopReader,
     cars_of,
     read_entry,
     read_stops,
@@ -62,8 +62,6 @@ from uictest.plans.series.listing import (
     require_few,
     values_set_by,
 )
-from uictest.plans.series.model import DEFAULT_CRITERIA, Recorded, Series, SeriesFile
-from uictest.plans.series.stops import StopReader
 
 _NOT_A_SERIES: Final = {SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml"}
 
@@ -90,7 +88,7 @@ def load_series(
     of_command_line = parse_overrides(overrides, seed)
     profiles, documents = _criteria(tree, Parts(files))
     file: SeriesFile = validated(SeriesFile, {**plain(tree), "criteria": profiles}, tree)
-    inputs = {each.display: each.sha256 for each in (tree.place.document, *documents) if each.sha256}
+    inputs = {each.display: each.sha256 for each in (tree.location.document, *documents) if each.sha256}
     common = [*values_set_by(tree, swept=False)]
     fixed = [each for each in of_command_line if len(each.values) == 1]
     variants = _variants(tree, of_command_line)
@@ -107,7 +105,9 @@ def load_series(
             judged = file.model_copy(update={"expect": file.expect.of_another_controller()})
         read = {shown: digest for case in cases for shown, digest in case.inputs.items()}
         parameters = {each.key: as_written(each.value.node) for each in variant}
-        for car in _judged_cars(file, cars_of(listed)):
+        count = cars_of(listed)
+        judged_cars = range(1, count + 1) if file.cars == "all" else (min(count, 1),)
+        for car in judged_cars:  # from 1; 0 stands for a car alone
             name = case_id(file.name, variant, short, labels, car)
             of_all_cars = case_id(file.name, variant, short, labels)
             stops = StopReader(name, of_all_cars, file.criteria, car).stops(listed)
@@ -116,17 +116,9 @@ def load_series(
     return every
 
 
-def _judged_cars(file: SeriesFile, cars: int) -> Sequence[int]:
-    """Return the numbers of the cars that have a series each, from 1; 0 stands for a car alone."""
-    if not cars:
-        return (0,)
-    return range(1, cars + 1) if file.cars == "all" else (1,)
-
-
 def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Document, ...]]:
-    """Return the profiles that a series names, and the documents that they come from."""
     entry = tree.entries.get("criteria")
-    node: Node = Scalar(DEFAULT_CRITERIA, DEFAULT_CRITERIA, tree.place) if entry is None else entry.node
+    node: Node = Scalar(DEFAULT_CRITERIA, DEFAULT_CRITERIA, tree.location) if entry is None else entry.node
     nodes = node.items if isinstance(node, List) else (node,)
     resolved = [parts.part(each, Criteria, ("criteria",)) for each in nodes]
     documents = tuple(document for each in resolved for document in each.documents)
@@ -231,7 +223,7 @@ def load_validation(
     require_schema(tree, VALIDATION_SCHEMA)
     file: ValidationFile = validated(ValidationFile, plain(tree), tree)
     comparisons = tuple(_comparisons(tree, file, files, parse_overrides(overrides, None)))
-    document = tree.place.document
+    document = tree.location.document
     inputs = {document.display: document.sha256} if document.sha256 else {}
     for each in comparisons:
         inputs |= each.case.inputs
@@ -256,18 +248,8 @@ def _comparisons(
     """Yield the comparisons of all entries. Raises ScenarioErrors with the errors of all."""
     nodes = tree.get("stops")
     assert isinstance(nodes, List)
-    diagnostics: list[Diagnostic] = []
-    read: list[Stop] = []
-    for node in nodes.items:
-        try:
-            read.append(read_entry(node, "scenario", files, last=overrides))
-        except ScenarioErrors as errors:
-            diagnostics.extend(errors.diagnostics)
-    if not diagnostics:
-        named = ((stop.recorded, node) for stop, node in zip(read, nodes.items, strict=True))
-        diagnostics.extend(recorded_twice(named))
-    if diagnostics:
-        raise ScenarioErrors(in_reading_order(diagnostics))
+    read = read_each(lambda node: read_entry(node, "scenario", files, last=overrides), nodes.items)
+    require_none(recorded_twice((stop.recorded, node) for stop, node in zip(read, nodes.items, strict=True)))
     for stop, stops in zip(read, file.stops, strict=True):
         (case,), recorded = stop.cases, stop.recorded
         assert recorded is not None

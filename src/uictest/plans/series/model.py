@@ -11,7 +11,16 @@ from pydantic import BeforeValidator, Field
 
 from uictest.core.series_measures import Rail
 from uictest.core.units import in_unit
-from uictest.plans.scenario import PASS, Case, Criteria, Criterion, Expect, TestFile, schema_of
+from uictest.plans.scenario import (
+    PASS,
+    Case,
+    Criteria,
+    Criterion,
+    Expect,
+    TestFile,
+    criteria_of_the_same_name,
+    schema_of,
+)
 from uictest.plans.scenario.yaml import (
     Inconsistency,
     Model,
@@ -20,7 +29,6 @@ from uictest.plans.scenario.yaml import (
     field,
     optional,
     quantity,
-    quoted,
 )
 
 DEFAULT_CRITERIA: Final = "uictest-wsp"
@@ -84,23 +92,6 @@ class SeriesFile(TestFile):
     expect: Expect = field(
         "The expected outcome, or what may be missed by name: {fail: [k-wet]}.", default=PASS
     )
-    firm: bool = field(
-        "Whether `uictest run` finds out how firm the verdicts are, as with --firm.",
-        default=False,
-        strict=True,
-    )
-    matrix: dict[str, Any] | None = optional(
-        "Lists of values by dotted key; every combination is a series of its own."
-    )
-    zip: dict[str, Any] | None = optional(
-        "Lists of equal length by dotted key; values at the same place make one."
-    )
-    include: tuple[dict[str, Any], ...] | None = optional(
-        "Further series, each a mapping of dotted keys to values."
-    )
-    exclude: tuple[dict[str, Any], ...] | None = optional(
-        "Series to leave out: those with exactly these values."
-    )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield requirements named twice, empty lists of stops, and criteria of the same name."""
@@ -108,16 +99,7 @@ class SeriesFile(TestFile):
         for name in ("dry", "wet"):
             if not getattr(self, name):
                 yield Inconsistency((name,), "an empty list", "name at least one scenario")
-        seen: dict[str, str] = {}
-        for number, profile in enumerate(self.criteria):
-            for index, criterion in enumerate(profile.criteria):
-                if criterion.id in seen:
-                    message = (
-                        f"criterion {quoted(criterion.id)} is in profile {quoted(seen[criterion.id])} as well"
-                    )
-                    key = ("criteria", number, "criteria", index, "id")
-                    yield Inconsistency(key, message, "leave one profile out")
-            seen |= {criterion.id: profile.name for criterion in profile.criteria}
+        yield from criteria_of_the_same_name(self.criteria)
         yield from self.expect.unknown_names(self.criteria)
 
 

@@ -25,13 +25,13 @@ from uictest.plans.scenario.yaml import (
     Document,
     Entry,
     Inconsistency,
+    List,
+    Location,
     Map,
     Model,
     Node,
-    Place,
     Quantity,
     Scalar,
-    Sequence as List,
     default,
     dotted,
     parse_quantity,
@@ -124,7 +124,7 @@ def _changed(model: Any, changes: Mapping[str, _Change]) -> Any:
     }
     if isinstance(model, tuple):
         places = {int(element): value for element, value in inner.items()}
-        return tuple(places.get(place, each) for place, each in enumerate(model))
+        return tuple(places.get(index, each) for index, each in enumerate(model))
     return {**model, **inner} if isinstance(model, dict) else model.model_copy(update=inner)
 
 
@@ -221,36 +221,36 @@ REGULAR_STEP: Final[Quantity] = default("0.5 ms", "time")
 """The step that the bias of the survey step refers to."""
 
 
-def survey_on_command_line(overrides: Sequence[Override]) -> Place | None:
+def survey_on_command_line(overrides: Sequence[Override]) -> Location | None:
     """Return where the command line asks for the survey step: by the last value of the time step there."""
     given = [override for override in overrides if override.key == TIME_STEP]
-    return _place_of_survey(given[-1].values) if given else None
+    return _location_of_survey(given[-1].values) if given else None
 
 
-def survey_in_lists(lists: Node | None) -> Place | None:
+def survey_in_lists(lists: Node | None) -> Location | None:
     """Return where the lists of a sweep ask for the survey step: by it alone as the time step."""
     values = lists.get(TIME_STEP) if isinstance(lists, Map) else None
-    return _place_of_survey(values.items) if isinstance(values, List) else None
+    return _location_of_survey(values.items) if isinstance(values, List) else None
 
 
-def _place_of_survey(values: Sequence[Node]) -> Place | None:
+def _location_of_survey(values: Sequence[Node]) -> Location | None:
     match values:
         case [Scalar() as value] if value.text == SURVEY:
-            return value.place
+            return value.location
     return None
 
 
-def require_regular_step(base: BaseCase, place: Place) -> None:
+def require_regular_step(base: BaseCase, location: Location) -> None:
     """Raise ScenarioErrors where the survey step would replace another step than it was compared with."""
     step = base.case.scenario.simulation.time_step
     if step != REGULAR_STEP:
         message = f"the survey step is known beside {REGULAR_STEP.text}; the scenario is run in {step.text}"
-        raise single_error(place, message, TIME_STEP, f"remove {TIME_STEP} from the scenario")
+        raise single_error(location, message, TIME_STEP, f"remove {TIME_STEP} from the scenario")
 
 
-def reject_other_steps(keys: Iterable[str], place: Place) -> None:
+def reject_other_steps(keys: Iterable[str], location: Location) -> None:
     """Raise ScenarioErrors where a sweep in survey steps varies the step, too."""
     for key in keys:
         if f"{TIME_STEP}.".startswith(f"{key}."):
             message = f"{quoted(key)} cannot vary: the survey step is that of all cases"
-            raise single_error(place, message, key, "vary the other keys of `simulation` one by one")
+            raise single_error(location, message, key, "vary the other keys of `simulation` one by one")

@@ -1,13 +1,14 @@
-"""Read a sweep file into a plan."""
+"""Read a sweep file, a scenario that says under `vary` what varies, into a plan."""
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
 from math import prod
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.plans import library
 from uictest.plans.scenario import (
@@ -20,6 +21,8 @@ from uictest.plans.scenario import (
     Parts,
     Roots,
     Scenario,
+    Vary,
+    load_with_trees,
     parse_overrides,
     sets_controller,
     sets_friction,
@@ -27,22 +30,27 @@ from uictest.plans.scenario import (
     with_another_controller,
 )
 from uictest.plans.scenario.yaml import (
+    SCENARIO_SCHEMA,
     Diagnostic,
     Entry,
+    List,
     Map,
-    ScenarioErrors,
-    Sequence as List,
+    describe,
     diagnose,
     display_name,
-    in_reading_order,
+    plain,
     quoted,
+    require_none,
+    require_schema,
     single_error,
+    validated,
     visible,
 )
 from uictest.plans.sweeps.base_case import (
     REPEAT_KEYS,
     SEEDS_IN_SWEEPS,
     TIME_STEP,
+    BaseCase,
     reject_other_steps,
     require_regular_step,
     survey_in_lists,
@@ -51,7 +59,74 @@ from uictest.plans.sweeps.base_case import (
 from uictest.plans.sweeps.column import ParameterValue
 from uictest.plans.sweeps.group_reader import GroupReader
 from uictest.plans.sweeps.plan import Group, ListedGroup, Plan
-from uictest.plans.sweeps.sweep_file import SweepFile, read_sweep_file
+
+_EXAMPLE: Final = "vary: {matrix: {rail.friction: [0.08, 0.10]}}"
+
+
+class SweepFile(NamedTuple):
+    """A sweep file as read.
+
+    Args:
+        name: of the sweep.
+        title: one line for people.
+        base: the case that is varied.
+        vary: what varies, validated.
+        tree: the sections of `vary` as written.
+        cases_sha256: digest of all that the file says of its cases.
+
+    """
+
+    name: str
+    title: str
+    base: BaseCase
+    vary: Vary
+    tree: Map
+    cases_sha256: str
+
+
+def read_sweep_file(path: Path, fixed: Sequence[Override], parts: Parts) -> SweepFile:
+    """Return a sweep file; `fixed` are values of the command line for its scenario. Raises ScenarioErrors."""
+    tree = parts.files.at(path)
+    require_schema(tree, SCENARIO_SCHEMA)
+    loaded, *_ = load_with_trees(path, fixed, parts, varied=True)
+    assert loaded.vary is not None
+    sections = loaded.vary.node
+    if not isinstance(sections, Map):
+        message = f"expected a mapping, found {describe(sections)}"
+        raise single_error(sections.location, message, "vary", f"write `{_EXAMPLE}`")
+    scenario = loaded.case.scenario
+    repeat = loaded.tree.entries.get("repeat")
+    if repeat is not None and scenario.repeat > 1:
+        message = f"the scenario repeats its stop {scenario.repeat} times"
+        hint = f"a sweep runs one stop per case: {SEEDS_IN_SWEEPS}; --set repeat=1 runs the first stop alone"
+        raise single_error(repeat.node.location, message, "repeat", hint)
+    _reject_ranges_in_lists(sections)
+    # In the order of the file: it is that of the cases.
+    content = json.dumps({**plain(tree), "vary": plain(sections)}, default=str)
+    return SweepFile(
+        name=scenario.name,
+        title=scenario.title,
+        base=BaseCase(loaded.case, loaded.tree, parts),
+        vary=validated(Vary, plain(sections), sections, ("vary",)),
+        tree=sections,
+        cases_sha256=hashlib.sha256(content.encode()).hexdigest(),
+    )
+
+
+def _reject_ranges_in_lists(sections: Map) -> None:
+    lists = sections.get("matrix")
+    diagnostics = [
+        diagnose(
+            entry.node.location,
+            f"expected a list of values, found {describe(entry.node)}",
+            f"vary.matrix.{key}",
+            "a range of numbers goes under `ranges`: {first, last, step} or {first, last, count}",
+        )
+        for key, entry in (lists.entries.items() if isinstance(lists, Map) else ())
+        if isinstance(entry.node, Map)
+    ]
+    require_none(diagnostics)
+
 
 MOST_CASES: Final = 100_000_000
 _SETS_CARS: Final = re.compile(r"train(\.\d+(\.count)?)?")
@@ -91,29 +166,29 @@ def load_sweep(
             raise single_error(survey, "what the survey step does to trains is not known", TIME_STEP)
     reader = GroupReader(file.base, file.vary.ranges or {})
     groups = _groups(file, sections, [each for each in parsed if len(each.values) > 1], reader)
+    keys = [key for group in groups for key in group.keys]
     if survey is not None:
-        reject_other_steps((key for group in groups for key in group.keys), survey)
-    documents = (parts.files.at(path).place.document, *reader.documents)
+        reject_other_steps(keys, survey)
+    documents = (parts.files.at(path).location.document, *reader.documents)
     read = {document.display: document.sha256 for document in documents if document.sha256}
-    compares_controllers = sets_controller(key for group in groups for key in group.keys)
+    base = file.base.case.changed(with_another_controller) if sets_controller(keys) else file.base.case
     return Plan(
         name=file.name,
         title=file.title,
         file=display_name(path),
-        base=file.base.case.changed(partial(_expecting, compares_controllers)),
+        base=base.changed(_without_allowance),
         groups=groups,
-        short=short_keys([key for group in groups for key in group.keys]),
+        short=short_keys(keys),
         inputs=dict(sorted({**file.base.case.inputs, **read}.items())),
         survey=survey is not None,
         cases_sha256=file.cases_sha256,
-        own_keys=file.base.own_keys(key for group in groups for key in group.keys),
+        own_keys=file.base.own_keys(keys),
     )
 
 
-def _expecting(compares_controllers: bool, scenario: Scenario) -> Scenario:
+def _without_allowance(scenario: Scenario) -> Scenario:
     """Return a scenario that allows another controller nothing: a sweep lists no case with what it misses."""
-    judged = with_another_controller(scenario) if compares_controllers else scenario
-    return judged.model_copy(update={"expect": PASS}) if judged.expect.is_allowance else judged
+    return scenario.model_copy(update={"expect": PASS}) if scenario.expect.is_allowance else scenario
 
 
 _Axis = tuple[str, Mapping[str, Entry]]
@@ -131,8 +206,7 @@ def _groups(
     sample, requested = sections.get("sample"), file.vary.sample
     drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
     diagnostics = [*_bad_keys(file, sections, [*axes, ("vary.sample", drawn)])]
-    if diagnostics:
-        raise ScenarioErrors(in_reading_order(diagnostics))
+    require_none(diagnostics)
     if requested is not None:
         parameters = {key: each for key, each in requested.parameters.items() if key in drawn}
         requested = requested.model_copy(update={"parameters": parameters}) if drawn else None
@@ -143,8 +217,7 @@ def _groups(
     groups: list[Group | None] = [reader.listed(entries, section) for section, entries in axes]
     if requested is not None and isinstance(sample, Map):
         groups.append(reader.sampled(requested, sample))
-    if reader.diagnostics:
-        raise ScenarioErrors(in_reading_order(reader.diagnostics))
+    require_none(reader.diagnostics)
     if train is not None and requested is not None and requested.method == "saltelli":
         message = "sensitivities are of a car alone"
         raise single_error(sections.entries["sample"].key, message, "vary.sample", "take method: sobol")
@@ -155,13 +228,13 @@ def _groups(
     longest_id = sum(map(_longest_label, complete)) + len(file.name) + 2
     if longest_id > LONGEST:
         message = f"case ids of up to {longest_id} characters; {LONGEST} are accepted"
-        raise single_error(sections.place, message)
+        raise single_error(sections.location, message)
     return complete
 
 
 def _axes(sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
     for each in swept:
-        yield "--set", {each.key: Entry(each.place, List(each.values, each.place))}
+        yield "--set", {each.key: Entry(each.location, List(each.values, each.location))}
     for section in ("matrix", "ranges"):
         for key, entry in _entries(sections, section):
             yield f"vary.{section}", {key: entry}
@@ -170,12 +243,11 @@ def _axes(sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
 
 
 def _require_few(counts: Mapping[str, int], sections: Map) -> None:
-    """Raise ScenarioErrors where combinations of so many values are too many cases."""
     if (size := prod(counts.values())) > MOST_CASES:
         factors = " x ".join(f"{count} of {visible(key)}" for key, count in counts.items() if count > 1)
         message = f"{size} cases ({factors}); at most {MOST_CASES} are accepted"
         hint = "list fewer values, or draw them all under `sample` in place of every combination"
-        raise single_error(sections.place, message, "vary", hint)
+        raise single_error(sections.location, message, "vary", hint)
 
 
 def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator[Diagnostic]:
@@ -201,7 +273,7 @@ def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator
             yield from file.base.conditions_alone(entries)
     if not section_of:
         names = "vary.matrix, vary.ranges, vary.zip, vary.sample"
-        yield diagnose(sections.place, "nothing varies", hint=f"give values under {names}")
+        yield diagnose(sections.location, "nothing varies", hint=f"give values under {names}")
 
 
 def _longest_label(group: Group) -> int:
@@ -215,7 +287,6 @@ def _longest_label(group: Group) -> int:
 
 
 def _without_keys(tree: Map, keys: set[str]) -> Map:
-    """Return the file without the swept keys that the command line sets."""
     for section in _SECTIONS:
         tree = _without_entries(tree, section, keys)
     sample = tree.entries.get("sample")

@@ -11,13 +11,13 @@ from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
     Entry,
+    List,
     Map,
     Model,
     Node,
     QuantityField,
     Scalar,
     ScenarioErrors,
-    Sequence as List,
     as_written,
     common_unit,
     diagnose,
@@ -126,7 +126,6 @@ class GroupReader:
         self.diagnostics.extend(diagnostics[1:])
 
     def _row(self, row: Mapping[str, Entry], number: int, *, explained: bool = True) -> _Row:
-        """Return the values of a row. Raises ScenarioErrors, empty unless `explained`."""
         contents = self._plain_quantities(row, explained) or self._resolved(row)
         return tuple(
             ParameterValue(as_written(entry.node), contents[key], value_label(setting, self._labels))
@@ -145,7 +144,7 @@ class GroupReader:
     def _at_new_values(self, errors: ScenarioErrors, row: Mapping[str, Entry]) -> ScenarioErrors:
         """Return errors in which one, at the new values, replaces those in the files of the base case."""
         key, entry = next(iter(row.items()))
-        valid = {*self._base.case.inputs, *_OPTIONS} - {entry.node.place.document.display}
+        valid = {*self._base.case.inputs, *_OPTIONS} - {entry.node.location.document.display}
         files = frozenset(map(visible, valid))
         others = [each for each in errors.diagnostics if each.file not in files]
         cause = next((each for each in errors.diagnostics if each.file in files), None)
@@ -153,7 +152,7 @@ class GroupReader:
             return errors
         values = " with ".join(quoted(as_written(each.node)) for each in row.values())
         message = f"{values} is inconsistent with {cause.key or 'the scenario'}: {cause.message}"
-        return ScenarioErrors([*others, diagnose(entry.node.place, message, key, cause.hint)])
+        return ScenarioErrors([*others, diagnose(entry.node.location, message, key, cause.hint)])
 
     def _plain_quantities(self, row: Mapping[str, Entry], explained: bool) -> dict[str, Any] | None:
         """Return the values of quantities without reading the scenario again, None where it must be read."""
@@ -186,8 +185,8 @@ class GroupReader:
         if distribution.choice is not None:
             listed, _ = entry_at(entry.node, ("choice",))
             return ParameterDraw(distribution, choices=self._choices(key, Entry(entry.key, listed.node)))
-        for text, place in _bounds(distribution, entry.node):
-            self._row({key: Entry(entry.key, _scalar(text, place))}, 1)
+        for text, node in _bounds(distribution, entry.node):
+            self._row({key: Entry(entry.key, _scalar(text, node))}, 1)
         unit = common_unit(distribution.quantities)
         assert unit is not None
         kind = self._kind(key, entry, unit)
@@ -203,10 +202,10 @@ class GroupReader:
 
     def _kind(self, key: str, entry: Entry, unit: str) -> str:
         """Return the kind of quantity that is drawn, empty for plain numbers. Raises ScenarioErrors."""
-        place = self._base.place_of(key)
-        if is_free(*place) and not unit:
+        location = self._base.place_of(key)
+        if is_free(*location) and not unit:
             return ""
-        field = quantity_field(*place)
+        field = quantity_field(*location)
         physical = None if field is None else _physical(field)
         if physical is None or physical.kind.name == "count":
             raise single_error(
@@ -227,11 +226,11 @@ def range_node(values: Range, place_of: Node) -> List:
         assert values.count is not None  # checked by the model
         numbers = evenly_spaced(first, last, values.count)
     texts = [quantity_text(number, unit) for number in numbers]
-    return List(tuple(_scalar(text, place_of) for text in texts), place_of.place)
+    return List(tuple(_scalar(text, place_of) for text in texts), place_of.location)
 
 
 def _scalar(text: str, place_of: Node) -> Scalar:
-    return Scalar(scalar_value(text), text, place_of.place)
+    return Scalar(scalar_value(text), text, place_of.location)
 
 
 def quantity_field(scenario: Any, key: str) -> Any:
@@ -273,9 +272,8 @@ def _repeated(rows: Iterable[_Row], name_of: Callable[[ParameterValue], str]) ->
 
 
 def _bounds(distribution: Distribution, node: Node) -> Iterator[tuple[str, Node]]:
-    """Yield the smallest and the largest value with their places in the file."""
     quantities = distribution.quantities
     name = "log-uniform" if distribution.log_uniform else distribution.form
-    for quantity, place in ((quantities[0], 0), (quantities[-1], len(quantities) - 1)):
-        key = ("lower", "upper")[min(place, 1)] if distribution.normal else place
+    for quantity, index in ((quantities[0], 0), (quantities[-1], len(quantities) - 1)):
+        key = ("lower", "upper")[min(index, 1)] if distribution.normal else index
         yield str(quantity), entry_at(node, (name, key))[0].node

@@ -9,18 +9,21 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from uictest.plans.scenario import CAR, Case, Distribution, Method, Scenario, TrainPlace
-from uictest.plans.sweeps.base_case import SURVEY_STEP, TIME_STEP, with_values
+from uictest.plans.scenario import CAR, Case, Distribution, Method, Scenario, TrainPlace, wheelset_value
+from uictest.plans.scenario.yaml import Quantity, parse_quantity
+from uictest.plans.sweeps.base_case import SURVEY_STEP, TIME_STEP, value_at, with_values
 from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column
-
-_OF_CAR: Final = re.compile(rf",{CAR}=\d+\]$")
-"""What tells the id of a car from that of its train."""
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from uictest.controllers import ControllerProgram
+
     Numbers = NDArray[np.int64]
+
+_OF_CAR: Final = re.compile(rf",{CAR}=\d+\]$")
+"""What tells the id of a car from that of its train."""
 
 
 @dataclass(frozen=True)
@@ -240,7 +243,78 @@ def scenarios_with_each(plan: Plan, key: str) -> Iterator[Scenario]:
         yield plan.base.scenario
 
 
-def in_survey_steps(plan: Plan) -> Plan:
-    """Return the plan whose cases are simulated in survey steps, whatever their time step is."""
-    scenario: Scenario = with_values(plan.base.scenario, {TIME_STEP: SURVEY_STEP})
-    return replace(plan, base=replace(plan.base, scenario=scenario))
+def in_survey_step(case: Case) -> Case:
+    """Return a case that is simulated in survey steps, whatever its time step is."""
+    return replace(case, scenario=with_values(case.scenario, {TIME_STEP: SURVEY_STEP}))
+
+
+_OF_WHEELSETS: Final = "vehicle.wheelsets."
+
+
+class DrawnRange(NamedTuple):
+    """The bounds of a distribution, as written, and the value of the scenario itself."""
+
+    key: str
+    low: Quantity
+    high: Quantity
+    nominal: Quantity
+
+    @property
+    def contains_nominal(self) -> bool:
+        """Whether the scenario's own value can be drawn."""
+        return self.low <= self.nominal <= self.high
+
+    def __str__(self) -> str:
+        """Return one sentence."""
+        lies = "lies inside" if self.contains_nominal else "lies OUTSIDE"
+        return (
+            f"{self.key}: the scenario's own {self.nominal.text} {lies} the range"
+            f" {_shown(self.low)} .. {_shown(self.high)}"
+        )
+
+
+def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
+    """Yield the ranges of a sample for sensitivities; a choice from a list has none."""
+    sample = saltelli_sample(plan)
+    for key, draw in zip(sample.keys, sample.draws, strict=True) if sample else ():
+        nominal = _nominal_value(plan.base.scenario, key)
+        if not draw.choices and isinstance(nominal, Quantity):
+            low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
+            yield DrawnRange(key, low, high, nominal)
+
+
+def _nominal_value(scenario: Scenario, key: str) -> Any:
+    """Return a value of the scenario; where a wheelset has none of its own, the regular one."""
+    value = value_at(scenario, key)
+    if value is None and key.startswith(_OF_WHEELSETS):
+        number, _, name = key.removeprefix(_OF_WHEELSETS).partition(".")
+        return wheelset_value(scenario, int(number), name)
+    return value
+
+
+def _shown(quantity: Quantity) -> str:
+    number, _, unit = quantity.text.partition(" ")
+    return f"{float(number):g} {unit}".rstrip()
+
+
+def controllers_of(plan: Plan) -> Iterator[tuple[str, Any]]:
+    """Yield for each car the key that varies its controller, empty for none, and that of its scenario."""
+    train = plan.base.train
+    scenarios = (plan.base.scenario,) if train is None else train.scenarios
+    own_keys = plan.own_keys or [{key: key for key in plan.keys}] * len(scenarios)
+    for scenario, own in zip(scenarios, own_keys, strict=True):
+        keys = [key for key in plan.keys if own.get(key) == "controller"]
+        yield keys[-1] if keys else "", scenario.controller
+
+
+def each_controller(plan: Plan) -> Iterator[Any]:
+    """Yield the controllers of all cars of all cases, some of them several times."""
+    for key, own in controllers_of(plan):
+        yield from (value.content for value in values_of(plan, key)) if key else (own,)
+
+
+def programs_of(plan: Plan) -> Iterator[ControllerProgram]:
+    """Yield the program of each controller from outside, with the parameters that are written beside it."""
+    for controller in each_controller(plan):
+        if controller.program is not None:
+            yield controller.program

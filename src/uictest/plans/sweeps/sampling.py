@@ -119,7 +119,8 @@ def quantile(distribution: Distribution) -> Quantile:
     The numbers of a choice are the places of its values, from 0.
     """
     if distribution.choice is not None:
-        return _place(len(distribution.choice))
+        count = len(distribution.choice)
+        return lambda probabilities: np.minimum(np.floor(probabilities * count), count - 1.0)
     if distribution.normal is not None:
         return _cut_off_normal(distribution.normal)
     quantities = distribution.uniform or distribution.log_uniform or distribution.triangular
@@ -128,10 +129,6 @@ def quantile(distribution: Distribution) -> Quantile:
     if distribution.log_uniform is not None:
         return log_uniform(*numbers)
     return _triangular(*numbers) if distribution.triangular is not None else uniform(*numbers)
-
-
-def _place(count: int) -> Quantile:
-    return lambda probabilities: np.minimum(np.floor(probabilities * count), count - 1.0)
 
 
 def uniform(low: float, high: float) -> Quantile:

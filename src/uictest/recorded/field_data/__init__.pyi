@@ -9,9 +9,12 @@ from .channel_map import (
     of_wheelsets as of_wheelsets,
     presets as presets,
 )
+from .defects import Defect as Defect
 from .judgement import (
+    REQUIRED_STATEMENTS as REQUIRED_STATEMENTS,
     judge_recording as judge_recording,
     recorded_description as recorded_description,
+    stated_case as stated_case,
 )
 from .proposal import (
     channel_rows as channel_rows,
@@ -20,7 +23,13 @@ from .proposal import (
     proposed_map as proposed_map,
     remarks as remarks,
 )
-from .raw_channels import MapError as MapError, RawChannel as RawChannel, select_channels as select_channels
+from .raw_channels import (
+    MapError as MapError,
+    RawChannel as RawChannel,
+    at_own_rates as at_own_rates,
+    resampled as resampled,
+    select_channels as select_channels,
+)
 from .recorded_stop import (
     RecordedStop as RecordedStop,
     UnusableError as UnusableError,
@@ -28,6 +37,4 @@ from .recorded_stop import (
     prepare as prepare,
     stop_in as stop_in,
 )
-from .support import REQUIRED_STATEMENTS as REQUIRED_STATEMENTS, stated_case as stated_case
-from .time_axis import Defect as Defect, at_own_rates as at_own_rates, resampled as resampled
 from .trigger import SHORTEST_APPLICATION as SHORTEST_APPLICATION

@@ -16,7 +16,7 @@ from uictest.recorded.field_data.raw_channels import Array
 from uictest.recorded.field_data.recorded_stop import RecordedStop
 from uictest.recorded.field_data.trigger import first_lasting_fall
 
-Found = tuple[float | None, str]
+Finding = tuple[float | None, str]
 """The value of a check, SI, with the numbers that contradict each other; None with why it is not made."""
 
 _RISING: Final = (
@@ -38,8 +38,8 @@ def record_verdicts(case: Case, stop: RecordedStop) -> Iterator[Verdict]:
     tolerances = case.scenario.record.tolerances
     for name, (unit, find) in _CHECKS.items():
         tolerance = getattr(tolerances, name)
-        found, words = find(case, stop)
-        value = None if found is None else to_12_digits(in_unit(found, unit))
+        number, words = find(case, stop)
+        value = None if number is None else to_12_digits(in_unit(number, unit))
         bounds = Bounds(None, to_12_digits(in_unit(tolerance, unit)))
         margin = None if value is None else bounds.margin(value)
         if value is not None:
@@ -48,14 +48,15 @@ def record_verdicts(case: Case, stop: RecordedStop) -> Iterator[Verdict]:
         mark = "user" if name in tolerances.model_fields_set else "chosen"
         meaning = type(tolerances).model_fields[name].description or ""
         definition = {"clause": "none", "measure": meaning, "bound": f"<= {tolerance.text} ({mark})"}
-        own = value, unit, None, bounds.upper, margin, status, words, definition
-        yield Verdict(check_id(name), "record", *own)
+        yield Verdict(
+            check_id(name), "record", value, unit, None, bounds.upper, margin, status, words, definition
+        )
 
 
-def _initial_speed(case: Case, stop: RecordedStop) -> Found:
+def _initial_speed(case: Case, stop: RecordedStop) -> Finding:
     recorded, stated = float(stop.recording["speed"][0]), case.scenario.initial_speed
-    shown = value_text(in_unit(recorded, "km/h"), "km/h")
-    words = f"recorded {shown}, scenario {case.scenario.name} says {stated.text}"
+    text = value_text(in_unit(recorded, "km/h"), "km/h")
+    words = f"recorded {text}, scenario {case.scenario.name} says {stated.text}"
     return (None, _LATE) if stop.trigger.late else (abs(recorded - stated), words)
 
 
@@ -71,11 +72,11 @@ def _fallen(stop: RecordedStop, share: float) -> tuple[float, float] | None:
     """Return when the speed has fallen to a share of the first one, s, and the speed then, m/s."""
     known = np.isfinite(stop.recording["speed"])
     time, speed = stop.recording[TIME][known], stop.recording["speed"][known]
-    place = first_lasting_fall(time, speed, share * speed[0])
-    return None if place is None else (float(time[place]), float(speed[place]))
+    index = first_lasting_fall(time, speed, share * speed[0])
+    return None if index is None else (float(time[index]), float(speed[index]))
 
 
-def _deceleration(case: Case, stop: RecordedStop) -> Found:
+def _deceleration(case: Case, stop: RecordedStop) -> Finding:
     most, gives = _by_brake(case)
     begin, end = _fallen(stop, _FROM), _fallen(stop, _TO)
     if most <= 0.0 or begin is None or end is None or begin == end:
@@ -91,7 +92,7 @@ def _built_up(case: Case) -> float:
     return max(at + ramp.dead_time + ramp.fill_time for at, ramp in ramps)
 
 
-def _duration(case: Case, stop: RecordedStop) -> Found:
+def _duration(case: Case, stop: RecordedStop) -> Finding:
     """Return the larger share by which either part of the speed took longer to lose than by the brake."""
     (most, gives), falls = _by_brake(case), {share: _fallen(stop, share) for share in (_FROM, _TO)}
     taken = {share: fall[0] for share, fall in falls.items() if fall is not None}
@@ -113,14 +114,15 @@ def _bar(pressure: float) -> str:
     return value_text(in_unit(float(pressure), "bar"), "bar")
 
 
-def _vacuum(case: Case, stop: RecordedStop) -> Found:
-    lowest = [(float(each.min()), name) for name, each in _pressures(stop, *_RISING, "reservoir_pressure")]
-    if not lowest:
+def _vacuum(case: Case, stop: RecordedStop) -> Finding:
+    recorded = _pressures(stop, *_RISING, "reservoir_pressure")
+    if not recorded:
         return None, "no pressure is recorded"
-    return -min(lowest)[0], f"{min(lowest)[1]} falls to {_bar(min(lowest)[0])}"
+    lowest, name = min((float(samples.min()), name) for name, samples in recorded)
+    return -lowest, f"{name} falls to {_bar(lowest)}"
 
 
-def _pressure_fall(case: Case, stop: RecordedStop) -> Found:
+def _pressure_fall(case: Case, stop: RecordedStop) -> Finding:
     # A WSP vents what had risen: what rises at all has the right sign.
     tolerance = case.scenario.record.tolerances.pressure_fall
     falls = [
@@ -129,12 +131,12 @@ def _pressure_fall(case: Case, stop: RecordedStop) -> Found:
     ]
     if stop.trigger.late or not falls:
         return None, _LATE if stop.trigger.late else "no pressure of the brake is recorded"
-    fall, name, samples = max(falls, key=lambda each: each[0])
+    fall, name, samples = max(falls, key=lambda fall: fall[0])
     levels = f"from {_bar(samples[0])} at the command to {_bar(np.median(samples))} (median)"
     return fall, f"{name} falls {levels} while the brake is applied"
 
 
-def _demanded_pressure(case: Case, stop: RecordedStop) -> Found:
+def _demanded_pressure(case: Case, stop: RecordedStop) -> Finding:
     demanded, brake = _pressures(stop, "demanded_pressure"), case.scenario.brake
     if not demanded or not case.vehicle_stated:
         return None, _UNSTATED if demanded else "demanded_pressure is not recorded"
@@ -147,7 +149,7 @@ def _demanded_pressure(case: Case, stop: RecordedStop) -> Found:
     return abs(largest / commanded - 1.0), words
 
 
-_CHECKS: Final[dict[str, tuple[str, Callable[[Case, RecordedStop], Found]]]] = {
+_CHECKS: Final[dict[str, tuple[str, Callable[[Case, RecordedStop], Finding]]]] = {
     "initial_speed": ("km/h", _initial_speed),
     "deceleration": ("1", _deceleration),
     "vacuum": ("bar", _vacuum),

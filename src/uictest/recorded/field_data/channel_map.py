@@ -84,13 +84,12 @@ def _with_short_names(schema: dict[str, Any]) -> None:
 class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
-    source: Annotated[
-        tuple[str, ...],
-        BeforeValidator(_several, json_schema_input_type=_NameOrNames),
-    ] = field(
-        "Name in the file, or a list of names: the first one present is used; also group/name. Of `time`,"
-        " columns of a date and a clock.",
-        default=(),
+    source: Annotated[tuple[str, ...], BeforeValidator(_several, json_schema_input_type=_NameOrNames)] = (
+        field(
+            "Name in the file, or a list of names: the first one present is used; also group/name. Of `time`,"
+            " columns of a date and a clock.",
+            default=(),
+        )
     )
     unit: str = field("Unit of the value; the file's own if left out.", default="")
     scale: float = field("Factor on every sample.", default=1.0, allow_inf_nan=False)
@@ -105,25 +104,25 @@ class ChannelSource(Model):
     )
 
 
-def _inconsistencies(place: tuple[str, ...], source: ChannelSource) -> Iterator[Inconsistency]:
-    name = place[-1]
+def _inconsistencies(key: tuple[str, ...], source: ChannelSource) -> Iterator[Inconsistency]:
+    name = key[-1]
     of_first = name.replace(NUMBER, str(WHEELSETS[0]))
     if of_first not in CHANNEL_UNITS:
         known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in CHANNEL_UNITS)
-        yield Inconsistency(place, f"unknown channel {quoted(name)}", suggestion(name, known))
+        yield Inconsistency(key, f"unknown channel {quoted(name)}", suggestion(name, known))
         return
     si = CHANNEL_UNITS[of_first]
     rotates = si == "m/s" and source.unit in ROTATIONAL_SPEEDS
     if source.unit and not rotates and recorded_unit_size(source.unit, si) is None:
         accepted = "accepted: " + ", ".join(recorded_spellings(si))
-        yield Inconsistency((*place, "unit"), f"{quoted(source.unit)} is not a unit of {name}", accepted)
+        yield Inconsistency((*key, "unit"), f"{quoted(source.unit)} is not a unit of {name}", accepted)
     if not source.source and source.interval is None:
         wanted = "source: NAME, or interval: 20 ms" if name == TIME else "source: NAME"
-        yield Inconsistency(place, f"{name}: no source", f"write {wanted}")
+        yield Inconsistency(key, f"{name}: no source", f"write {wanted}")
     if source.interval is not None and name != TIME:
-        yield Inconsistency((*place, "interval"), "interval: of `time` alone", "it holds for every channel")
+        yield Inconsistency((*key, "interval"), "interval: of `time` alone", "it holds for every channel")
     if source.wheel_radius is not None and si != "m/s":
-        yield Inconsistency((*place, "wheel_radius"), f"wheel_radius: {name} is no speed")
+        yield Inconsistency((*key, "wheel_radius"), f"wheel_radius: {name} is no speed")
 
 
 _NOT_READ: Final = ChannelSource(source=("",))
@@ -280,10 +279,10 @@ def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, 
     merged, documents = inherit(tree, fetch=lambda parent: _parent(parent, files))
     loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
     inputs = {
-        each.display
-        if each.folder != _PRESETS
-        else f"library:channel_maps/{Path(each.display).name}": each.sha256
-        for each in documents
+        document.display
+        if document.folder != _PRESETS
+        else f"library:channel_maps/{Path(document.display).name}": document.sha256
+        for document in documents
     }
     return loaded, inputs
 
@@ -293,7 +292,7 @@ def _parent(reference: Scalar, files: Files) -> Map:
         return read_file(_PRESETS / f"{reference.text}.yaml")
     if not is_path(reference.text):
         hint = suggestion(reference.text, presets())
-        raise single_error(reference.place, f"no channel map {quoted(reference.text)}", "extends", hint)
+        raise single_error(reference.location, f"no channel map {quoted(reference.text)}", "extends", hint)
     return files.beside(reference, "extends")
 
 

@@ -23,8 +23,8 @@ from uictest.recorded.field_data.channel_map import (
     load_map,
     of_wheelsets,
 )
+from uictest.recorded.field_data.judgement import measures_of
 from uictest.recorded.field_data.raw_channels import holds_dates, is_empty
-from uictest.recorded.field_data.support import measures_of
 
 _COMMON = "common-names"
 _ESSENTIAL = ("speed", *of_wheelsets("wheel_speed"))
@@ -130,7 +130,8 @@ def _time_columns(contents: Contents, assigned: Mapping[str, str]) -> list[str]:
     numbers = group.channels.get(assigned.get(TIME, ""))
     if group.time is not None or (numbers is not None and numbers.dtype.kind != "U"):
         return []
-    return next((each for each in _date_columns(group) if next(written_as(_joined(group, each)), "")), [])
+    candidates = _date_columns(group)
+    return next((columns for columns in candidates if next(written_as(_joined(group, columns)), "")), [])
 
 
 def _joined(group: Group, columns: Sequence[str]) -> list[str]:
@@ -189,7 +190,7 @@ def _fits(preset: str, contents: Contents, assigned: Mapping[str, str]) -> bool:
     sources = load_map(preset)[0].sources
     return all(
         canonical in sources
-        and next((each for each in sources[canonical].source if _group_of(each, contents)), None) == name
+        and next((alias for alias in sources[canonical].source if _group_of(alias, contents)), None) == name
         and _has_unit(_group_of(name, contents), canonical, name)
         for canonical, name in assigned.items()
     )
@@ -206,10 +207,10 @@ def _assigned(contents: Contents) -> dict[str, str]:
 def _by_name(contents: Contents) -> Iterator[tuple[str, str]]:
     names: dict[str, list[tuple[Group, str]]] = {}
     for group in contents.groups:
-        for name in (each for each, samples in group.channels.items() if not is_empty(samples)):
+        for name in (name for name, samples in group.channels.items() if not is_empty(samples)):
             names.setdefault(_plain(_counted_from_one(name, group)), []).append((group, name))
     for canonical, source in load_map(_COMMON)[0].sources.items():
-        alike = (each for alias in source.source for each in names.get(_plain(alias), ()))
+        alike = (channel for alias in source.source for channel in names.get(_plain(alias), ()))
         fitting = (
             name
             for group, name in alike
@@ -226,9 +227,8 @@ def _counted_from_one(name: str, group: Group) -> str:
     match = _ELEMENT.fullmatch(name)
     if match is None:
         return name
-    numbers = [
-        int(each[2]) for each in map(_ELEMENT.fullmatch, group.channels) if each and each[1] == match[1]
-    ]
+    elements = map(_ELEMENT.fullmatch, group.channels)
+    numbers = [int(element[2]) for element in elements if element and element[1] == match[1]]
     # Five are the train and its wheelsets, in whatever order.
     return f"{match[1]}{int(match[2]) + (0 in numbers)}" if len(numbers) <= len(WHEELSETS) else name
 

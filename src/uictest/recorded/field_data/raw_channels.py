@@ -1,4 +1,4 @@
-"""Channels of a file under their canonical names and in SI units; commands from two magnets."""
+"""Channels of a file by canonical name, in SI units, at their own rates or on the raster of a stop."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import functools
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,11 +20,13 @@ from uictest.core.recording import (
     Group,
     Implausible,
     Samples,
+    at_instants,
     implausible_time,
     implausible_unit,
     numbers_of,
     state_kind,
     states_of,
+    usual_interval,
 )
 from uictest.core.recording.formats import Cells, Dialect, UnreadableError, seconds_of
 from uictest.core.units import ROTATIONAL_SPEEDS, is_recorded_unit, recorded_spellings, recorded_unit_size
@@ -76,9 +78,9 @@ def select_channels(
     for name, source in sources.items():
         if name == TIME:
             continue
-        place = _find(contents, name, source)
-        if place is not None:
-            group, original = place
+        match = _find(contents, name, source)
+        if match is not None:
+            group, original = match
             samples = _in_si(name, source, original, group, channel_map.dialect, longest)
             if id(group) not in times:
                 times[id(group)] = _time_of(group, channel_map, original, longest)
@@ -92,7 +94,7 @@ def _no_speed(contents: Contents, sources: Mapping[str, ChannelSource]) -> str:
     names = [name for group in contents.groups for name in group.channels]
     looked_for = sources["speed"].source if "speed" in sources else ("speed",)
     hint = suggestion(looked_for[0], names) if len(names) <= 40 else ""
-    if twice := [each for each in names if re.sub(r" \(\d+\)$", "", each) in looked_for]:
+    if twice := [column for column in names if re.sub(r" \(\d+\)$", "", column) in looked_for]:
         hint = f"several columns have that name: write one of {', '.join(map(quoted, twice))}"
     skipped = "".join(f"; {quoted(name)} {reason}" for name, reason in list(contents.skipped.items())[:1])
     return (
@@ -102,19 +104,21 @@ def _no_speed(contents: Contents, sources: Mapping[str, ChannelSource]) -> str:
 
 
 def _find(contents: Contents, name: str, source: ChannelSource) -> tuple[Group, str] | None:
-    found: list[tuple[Group, str]] = []
+    candidates: list[tuple[Group, str]] = []
     for alias in source.source:
         matches = dict(_matches(contents, alias))
         if len(matches) > 1:
             several = ", ".join(map(quoted, matches))
             raise MapError(f"{name}: {quoted(alias)} is in several groups: write one of {several}")
-        found += matches.values()
+        candidates += matches.values()
     if len(source.source) == 1:
-        return next(iter(found), None)
+        return next(iter(candidates), None)
     # Of several names, one with a unit of another kind is another quantity: T1 is a temperature, no torque.
-    misfits = [_misfit(name, source, group.units.get(original, "")) for group, original in found]
+    misfits = [_misfit(name, source, group.units.get(original, "")) for group, original in candidates]
     least = min(misfits, default=_OF_ANOTHER_KIND)
-    return found[misfits.index(least)] if found and (least < _OF_ANOTHER_KIND or name == "speed") else None
+    if not candidates or (least == _OF_ANOTHER_KIND and name != "speed"):
+        return None
+    return candidates[misfits.index(least)]
 
 
 def _matches(contents: Contents, alias: str) -> Iterator[tuple[str, tuple[Group, str]]]:
@@ -190,12 +194,7 @@ def _dated(group: Group, columns: Sequence[str], written: str, longest: float | 
 
 
 def _in_si(
-    name: str,
-    source: ChannelSource,
-    original: str,
-    group: Group,
-    dialect: Dialect,
-    longest: float | None,
+    name: str, source: ChannelSource, original: str, group: Group, dialect: Dialect, longest: float | None
 ) -> Array:
     samples = group.channels[original]
     if samples.dtype.kind != "U":
@@ -212,17 +211,13 @@ def _in_si(
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
     if longest is None:
         return converted
-    return _require_plausible(
-        _implausible(name, converted, unit, size, longest), name, quoted(original), converted
-    )
-
-
-def _implausible(name: str, converted: Array, unit: str, size: float, longest: float) -> Implausible | None:
     si = CHANNEL_UNITS[name]
     sizes = {**recorded_spellings(si), unit: size}
     if name == TIME:
-        return implausible_time(converted, unit, sizes, longest)
-    return implausible_unit(converted, si, unit, sizes)
+        implausible = implausible_time(converted, unit, sizes, longest)
+    else:
+        implausible = implausible_unit(converted, si, unit, sizes)
+    return _require_plausible(implausible, name, quoted(original), converted)
 
 
 def _require_plausible(implausible: Implausible | None, name: str, original: str, samples: Array) -> Array:
@@ -286,11 +281,11 @@ def _numbers_of_texts(
     values, strange = numbers_of(group, original, {**states_of(name), **source.states}, cells)
     if strange and (strict or state_kind(name) is None):
         text = strange[0]
-        place = group.first_texts.get(original, {}).get(text, "")
+        location = group.first_texts.get(original, {}).get(text, "")
         if state_kind(name) is None:
-            raise MapError(f"{name}: {quoted(original)}: {cells.refusal(text, place)}")
-        where = f", in {place}" if place else ""
-        example = json.dumps({each: k for k, each in enumerate(strange[:3])}, ensure_ascii=False)
+            raise MapError(f"{name}: {quoted(original)}: {cells.refusal(text, location)}")
+        where = f", in {location}" if location else ""
+        example = json.dumps({state: k for k, state in enumerate(strange[:3])}, ensure_ascii=False)
         raise MapError(
             f"{name}: {quoted(original)} is {quoted(text)}{where}, which is no state:"
             f" name it in `states` of the channel map, as in states: {example}"
@@ -318,3 +313,93 @@ def _command(hold: Array, vent: Array) -> Array:
     """Return the commands; a valve that vents does so whatever its other magnet shows."""
     command = np.where(vent > _ON, VENT, np.where(hold > _ON, HOLD, FILL))
     return np.where(np.isfinite(hold) & np.isfinite(vent), command, np.nan)
+
+
+def by_axis(channels: Iterable[RawChannel]) -> list[list[RawChannel]]:
+    """Return the channels that share a time axis together, in their own order."""
+    axes: dict[int, list[RawChannel]] = {}
+    for channel in channels:
+        axes.setdefault(id(channel.time), []).append(channel)
+    return list(axes.values())
+
+
+_SLOWER = 1.5
+"""Times the interval of its rows that a channel of a rate of its own takes at least; chosen."""
+_FEW_SAMPLES = 10
+"""Samples that show a rate at least; chosen."""
+
+
+def at_own_rates(channels: Mapping[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels whose samples regularly miss in the rows of others over a time of their own.
+
+    Programs write channels of several rates or clocks into one table so. Whatever else is missing stays so.
+    """
+    axes: dict[tuple[int, bytes], Array] = {}
+    own_rates = dict(channels)
+    for name, channel in channels.items():
+        present = np.isfinite(channel.samples) & np.isfinite(channel.time)
+        times = axes.setdefault((id(channel.time), present.tobytes()), channel.time[present])
+        if len(times) < _FEW_SAMPLES or np.all(np.diff(np.flatnonzero(present)) == 1):
+            continue
+        usual = usual_interval(times)
+        slower = usual > _SLOWER * usual_interval(channel.time) and not gaps(times, 0.0).any()
+        if slower or np.max(np.diff(times)) <= _SLOWER * usual:
+            own_rates[name] = replace(channel, time=times, samples=channel.samples[present])
+    return own_rates
+
+
+_GAP_INTERVALS = 2.5
+"""An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
+
+
+def gaps(time: Array, raster: float) -> NDArray[np.bool_]:
+    """Return which intervals between neighbouring samples are gaps."""
+    longest = max(_GAP_INTERVALS * usual_interval(time), raster * (1.0 + 1e-6))
+    return np.asarray(np.diff(time) > longest)
+
+
+_HIGHEST_SHARE = 0.4
+"""Of the sampling rate: above it a low-pass would change nothing that was sampled."""
+
+
+def low_passed(channel: RawChannel, corner: float) -> RawChannel:
+    """Return a signal after a low-pass of second order with a corner frequency in Hz, applied both ways.
+
+    States, channels with missing samples and channels sampled so slowly that they hold nothing above the
+    corner are returned as they are. Applied both ways, the filter delays nothing.
+    """
+    interval = usual_interval(channel.time)
+    complete = bool(np.isfinite(channel.samples).all())
+    if channel.is_state or not complete or len(channel.time) < 10 or corner * interval > _HIGHEST_SHARE:
+        return channel
+    from scipy.signal import butter, sosfiltfilt
+
+    count = round((channel.time[-1] - channel.time[0]) / interval) + 1
+    even = np.linspace(channel.time[0], channel.time[-1], count)
+    sections = butter(1, corner, fs=(count - 1) / (even[-1] - even[0]), output="sos")
+    filtered = sosfiltfilt(sections, np.interp(even, channel.time, channel.samples))
+    return replace(channel, samples=np.interp(channel.time, even, filtered))
+
+
+def resampled(channel: RawChannel, times: Array, raster: float) -> Array:
+    """Return a channel at `times` (s, rising); NaN where it was not recorded.
+
+    Args:
+        channel: sorted in time; NaN samples stay NaN, and so does what lies between them and others.
+        times: at which samples are returned.
+        raster: interval of `times`, s: shorter intervals between samples are no gaps.
+
+    """
+    if len(channel.time) < 2:
+        return np.full(len(times), np.nan)
+    lost = gaps(channel.time, raster)
+    return at_instants(channel.time, channel.samples, times, holds=channel.is_state, gaps=lost)
+
+
+def integrated(speed: RawChannel, raster: float, begin: float) -> RawChannel:
+    """Return the distance, m: the speed integrated; unknown from its first gap after `begin`, s."""
+    steps = 0.5 * (speed.samples[1:] + speed.samples[:-1]) * np.diff(speed.time)
+    steps[gaps(speed.time, raster)] = np.nan
+    steps[np.isnan(steps) & (speed.time[1:] <= begin)] = 0.0
+    distance: Array = np.concatenate(([0.0], np.cumsum(steps)))
+    return replace(speed, name="distance", source=f"{speed.source}, integrated", samples=distance)

@@ -16,27 +16,29 @@ from uictest.core.recording.formats import read_contents
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans.scenario.yaml import QuantityError, parse_quantity
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, ChannelMap, Preparation
+from uictest.recorded.field_data.defects import (
+    Defect,
+    analogue_defects,
+    coarse_defects,
+    disorder,
+    distance_defects,
+    gap_defects,
+    interruption,
+    missing_samples,
+    speed_defects,
+    without_implausible,
+)
 from uictest.recorded.field_data.raw_channels import (
     Array,
     MapError,
     RawChannel,
-    select_channels,
-    with_valve_commands,
-)
-from uictest.recorded.field_data.sensor_defects import analogue_defects, distance_defects, speed_defects
-from uictest.recorded.field_data.time_axis import (
-    Defect,
     at_own_rates,
     by_axis,
-    coarse_defects,
-    disorder,
-    gap_defects,
     integrated,
-    interruption,
     low_passed,
-    missing_samples,
     resampled,
-    without_implausible,
+    select_channels,
+    with_valve_commands,
 )
 from uictest.recorded.field_data.trigger import (
     BrakeCommand,
@@ -70,7 +72,7 @@ class RecordedStop:
         defects: everything found wrong.
         choices: how the record was prepared, name -> text: part of the definition of every measure.
         intervals: channel -> usual time between its samples in the file, s.
-        place: recorded distance at the brake command, m; NaN where none is recorded.
+        position: recorded distance at the brake command, m; NaN where none is recorded.
         track_brakes_beside: time for which the file says that track brakes of other cars acted, s; NaN where
             it does not.
 
@@ -82,7 +84,7 @@ class RecordedStop:
     defects: tuple[Defect, ...]
     choices: dict[str, str] = field(default_factory=dict)
     intervals: dict[str, float] = field(default_factory=dict)
-    place: float = math.nan
+    position: float = math.nan
     track_brakes_beside: float = math.nan
 
 
@@ -125,12 +127,17 @@ def prepare(
     raster = max(float(preparation.raster), usual_interval(ordered["speed"].time))
     stated = _stated_intervals(metadata, ordered)
     defects += _sampling_defects(ordered, raster, stated)
-    plausible, implausible = _without_implausible(ordered)
-    defects += implausible
+    plausible = dict(ordered)
+    for name, channel in ordered.items():
+        plausible[name], implausible = without_implausible(channel)
+        defects += implausible
     if not np.isfinite(plausible["speed"].samples).any():
         raise UnusableError(tuple(defects))
     trigger = find_trigger(plausible, metadata, preparation)
-    filtered = _filtered(plausible, preparation)
+    filtered = plausible
+    if preparation.low_pass is not None:
+        corner = float(preparation.low_pass)
+        filtered = {name: low_passed(channel, corner) for name, channel in plausible.items()}
     speed = filtered["speed"]
     rest = find_standstill(speed.time, speed.samples, trigger.time, float(preparation.standstill_speed))
     end = rest.time if rest else float(speed.time[-1])
@@ -140,7 +147,7 @@ def prepare(
     defects += _sensor_defects(filtered, trigger, end)
     defects += distance_defects(filtered, trigger.time, min(end, rest.last) if rest else end, raster)
     defects += _cut_off(speed, trigger, rest)
-    recording, standstill, place = _on_raster(filtered, trigger, rest, raster, tuple(defects))
+    recording, standstill, position = _on_raster(filtered, trigger, rest, raster, tuple(defects))
     choices = {
         **_choices(preparation, trigger, rest, raster, filtered),
         "filter": _filter_text(preparation, plausible, filtered),
@@ -148,7 +155,7 @@ def prepare(
     }
     intervals = {name: stated.get(name, usual_interval(channel.time)) for name, channel in filtered.items()}
     beside = _track_brakes_beside(metadata)
-    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals, place, beside)
+    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals, position, beside)
 
 
 def _track_brakes_beside(metadata: Mapping[str, str]) -> float:
@@ -167,7 +174,6 @@ def _choices(
     raster: float,
     channels: Channels,
 ) -> dict[str, str]:
-    """Return how trigger, raster, standstill and distance of a stop were chosen."""
     return {
         "trigger": trigger.text,
         "raster": f"{1e3 * raster:.6g} ms, signals linear, states held",
@@ -180,8 +186,8 @@ def _choices(
 def _sampling(channels: Channels) -> str:
     """Return the interval of the train speed, and those of channels with a time of their own."""
     others = (axis for axis in by_axis(channels.values()) if axis[0].time is not channels["speed"].time)
-    own = [f"{_names(axis)} every {1e3 * usual_interval(axis[0].time):.6g} ms" for axis in others]
-    return "; ".join([f"speed every {1e3 * usual_interval(channels['speed'].time):.6g} ms", *own])
+    texts = [f"{_names(axis)} every {1e3 * usual_interval(axis[0].time):.6g} ms" for axis in others]
+    return "; ".join([f"speed every {1e3 * usual_interval(channels['speed'].time):.6g} ms", *texts])
 
 
 def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]]:
@@ -215,20 +221,6 @@ def _sampling_defects(channels: Channels, raster: float, stated: dict[str, float
         yield from coarse_defects(interval, name)
     for channel in channels.values():
         yield from missing_samples(channel)
-
-
-def _without_implausible(channels: Channels) -> tuple[Channels, list[Defect]]:
-    plausible, defects = dict(channels), []
-    for name, channel in channels.items():
-        plausible[name], of_channel = without_implausible(channel)
-        defects += of_channel
-    return plausible, defects
-
-
-def _filtered(channels: Channels, preparation: Preparation) -> Channels:
-    if preparation.low_pass is None:
-        return channels
-    return {name: low_passed(channel, float(preparation.low_pass)) for name, channel in channels.items()}
 
 
 def _filter_text(preparation: Preparation, before: Channels, after: Channels) -> str:
@@ -266,7 +258,7 @@ def _on_raster(
     raster: float,
     defects: tuple[Defect, ...],
 ) -> tuple[Recording, tuple[float, float] | None, float]:
-    """Return the recording over the time since the brake command, its standstill, and the place there."""
+    """Return the recording over the time since the brake command, its standstill, and where it begins."""
     if not (recorded := "distance" in channels):
         channels = {**channels, "distance": integrated(channels["speed"], raster, trigger.time)}
     last = min(rest.last, rest.time) if rest else float(channels["speed"].time[-1])
@@ -282,17 +274,11 @@ def _on_raster(
         {TIME: since, **{name: samples[name] for name in CHANNEL_UNITS if name in samples}},
         {TIME: "s", **{name: unit for name, unit in CHANNEL_UNITS.items() if name in samples}},
     )
-    place = float(origin) if recorded else math.nan
-    return recording, _standstill(channels["distance"], trigger, rest, origin, raster), place
-
-
-def _standstill(
-    distance: RawChannel, trigger: BrakeCommand, rest: Standstill | None, origin: float, raster: float
-) -> tuple[float, float] | None:
-    if rest is None:
-        return None
-    run = resampled(distance, np.array([rest.last]), raster)[0] - origin + rest.beyond
-    return rest.time - trigger.time, float(run)
+    standstill = None
+    if rest is not None:
+        run = resampled(channels["distance"], np.array([rest.last]), raster)[0] - origin + rest.beyond
+        standstill = rest.time - trigger.time, float(run)
+    return recording, standstill, float(origin) if recorded else math.nan
 
 
 def _names(channels: list[RawChannel]) -> str:

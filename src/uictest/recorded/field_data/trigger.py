@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,19 +39,28 @@ def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparatio
     if preparation.trigger_time is not None:
         return _stated(channels, float(preparation.trigger_time), "stated by the user", preparation)
     for name in _ORDER if preparation.trigger == "auto" else (preparation.trigger,):
-        trigger = _FINDERS[name](channels, metadata, preparation)
+        match name:
+            case "stated":
+                trigger = _by_metadata(channels, metadata, preparation)
+            case "start":
+                first = float(channels["speed"].time[0])
+                _require_running(
+                    channels["speed"], first, "the record begins with the brake command", preparation
+                )
+                trigger = BrakeCommand(first, "the record begins with it")
+            case _:
+                level = _ON if name == "command" else float(preparation.trigger_pressure)
+                trigger = _first_of(channels, _SHOWN_BY[name], level, preparation)
         if trigger is not None:
             return trigger
-    raise MapError(_nothing_marks_it(preparation))
-
-
-def _nothing_marks_it(preparation: Preparation) -> str:
     if preparation.trigger == "auto":
-        return (
+        raise MapError(
             "nothing marks the brake command: no time stated by the file, no brake command, no demanded"
             " pressure and no pressure that rises while the train runs; state it with --trigger"
         )
-    return f"the trigger {preparation.trigger!r} finds no brake command in this record while the train runs"
+    raise MapError(
+        f"the trigger {preparation.trigger!r} finds no brake command in this record while the train runs"
+    )
 
 
 def _by_metadata(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
@@ -90,32 +99,9 @@ def _require_running(speed: RawChannel, time: float, what: str, preparation: Pre
         )
 
 
-def _by_start(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
-    first = float(channels["speed"].time[0])
-    _require_running(channels["speed"], first, "the record begins with the brake command", preparation)
-    return BrakeCommand(first, "the record begins with it")
-
-
-def _by_command(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
-    return _first_of(channels, ("brake_command",), _ON, preparation)
-
-
-def _by_demand(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
-    return _first_of(channels, ("demanded_pressure",), float(preparation.trigger_pressure), preparation)
-
-
-def _by_pressure(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
-    return _first_of(channels, _PRESSURES, float(preparation.trigger_pressure), preparation)
-
-
-_FINDERS: dict[str, Callable[[Channels, Metadata, Preparation], BrakeCommand | None]] = {
-    "stated": _by_metadata,
-    "start": _by_start,
-    "command": _by_command,
-    "demand": _by_demand,
-    "pressure": _by_pressure,
-}
-_ORDER = ("stated", "command", "demand", "pressure")
+_SHOWN_BY = {"command": ("brake_command",), "demand": ("demanded_pressure",), "pressure": _PRESSURES}
+"""Trigger -> the channels whose first rise marks the brake command."""
+_ORDER = ("stated", *_SHOWN_BY)
 
 
 def _first_of(
@@ -158,8 +144,8 @@ def _rise(
     above = samples > level
     rises = np.flatnonzero(above[1:] & ~above[:-1] & running[1:])
     ends = np.searchsorted(time, time[rises + 1] + SHORTEST_APPLICATION, side="right")
-    shown = [np.mean(above[k + 1 : max(end, k + 3)]) for k, end in zip(rises, ends, strict=True)]
-    lasting = [int(k) for k, share in zip(rises, shown, strict=True) if share > 0.5]
+    shares = [np.mean(above[k + 1 : max(end, k + 3)]) for k, end in zip(rises, ends, strict=True)]
+    lasting = [int(k) for k, share in zip(rises, shares, strict=True) if share > 0.5]
     if lasting:
         yield _crossing(time, samples, lasting[0], level, held=channel.is_state), False
     elif above[0] and running[0]:

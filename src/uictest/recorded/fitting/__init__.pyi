@@ -1,3 +1,4 @@
+from .balances import FitError as FitError
 from .fit import COVERED as COVERED, Fit as Fit, fit_stop as fit_stop
 from .outputs import (
     agreement as agreement,
@@ -5,4 +6,3 @@ from .outputs import (
     fitted_yaml as fitted_yaml,
     overlay as overlay,
 )
-from .samples import FitError as FitError

@@ -120,14 +120,14 @@ def friction_of(fit: Fit, scenario: Scenario) -> float | dict[str, Any]:
     no wheelset reached takes the friction of its neighbour.
     """
     levels: list[float] = []
-    own = float(scenario.rail.highest_friction)
+    stated = float(scenario.rail.highest_friction)
     for estimate in fit.friction:
-        value = {"found": estimate.value, "at least": max(own, estimate.value)}.get(estimate.standing)
+        value = {"found": estimate.value, "at least": max(stated, estimate.value)}.get(estimate.standing)
         levels.append(round(min(value if value is not None else levels[-1], 1.0), _DIGITS))
     if len(levels) == 1:
         return levels[0]
-    places = [min(0.0, fit.breaks[0] - 1.0), *fit.breaks]
-    points = [{"position": f"{p:g} m", "friction": mu} for p, mu in zip(places, levels, strict=True)]
+    positions = [min(0.0, fit.breaks[0] - 1.0), *fit.breaks]
+    points = [{"position": f"{p:g} m", "friction": mu} for p, mu in zip(positions, levels, strict=True)]
     return {"points": points, "interpolation": "steps"}
 
 
@@ -154,6 +154,6 @@ def _with_pads(scenario: Scenario, factor: float) -> dict[str, Any]:
 
 def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dict[str, Any]:
     """Return the fitted values, the agreement of the simulated stop and the preparation; NaN as None."""
-    found = {"determined": fit.determined, "fit": asdict(fit), "agreement": asdict(agreement)}
-    form: dict[str, Any] = evaluation.json_form({"schema": SCHEMA, **found, "preparation": choices})
+    results = {"determined": fit.determined, "fit": asdict(fit), "agreement": asdict(agreement)}
+    form: dict[str, Any] = evaluation.json_form({"schema": SCHEMA, **results, "preparation": choices})
     return form

@@ -1,19 +1,123 @@
-"""What the finder reads of a log: clock, speed and brake of every row."""
+"""What is read of a log, piece by piece: all channels over one time; clock, speed and brake of every row."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording.formats import UnreadableError
-from uictest.recorded.field_data import ChannelMap, MapError, RawChannel, of_wheelsets
-from uictest.recorded.service_log.channels import pieces_of
+from uictest.core.recording import TIME, beyond, state_kind, usual_interval
+from uictest.core.recording.formats import DAY, UnreadableError, is_clock, read_pieces
+from uictest.recorded.field_data import (
+    CHANNEL_UNITS,
+    ChannelMap,
+    MapError,
+    RawChannel,
+    at_own_rates,
+    of_wheelsets,
+    resampled,
+    select_channels,
+)
 
 Array = NDArray[np.float64]
+
+_SPEED = "speed"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """Channels over the time of the train speed, in SI, and how far apart their own samples are, s."""
+
+    channels: dict[str, RawChannel]
+    intervals: dict[str, float]
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.channels[_SPEED].time)
+
+
+def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | None = None) -> Iterator[Piece]:
+    """Yield the channels of a file, piece by piece: the train speed and the `needed` ones, None: all.
+
+    The first piece shows whether the units fit. Implausible samples are NaN.
+
+    Raises UnreadableError, MissingExtraError, MapError, OSError.
+    """
+    sources = channel_map.sources
+    chosen = sources if needed is None else {TIME, _SPEED, *needed}
+    names = {alias for name in chosen if name in sources for alias in sources[name].source}
+    leading = sources[_SPEED].source if _SPEED in sources else ()
+    states = [source for name, source in sources.items() if source.states or state_kind(name)]
+    texts = {alias for source in states for alias in source.source}
+    known: list[str] = []
+    last = math.nan
+    for contents in read_pieces(path, channel_map.dialect, names, leading, texts):
+        try:
+            read = at_own_rates(select_channels(contents, channel_map, None if known else math.inf))
+        except MapError:
+            if not known:  # The message names what the file has, not only what was looked for.
+                select_channels(next(read_pieces(path, channel_map.dialect)), channel_map, math.inf)
+            raise
+        if is_clock(channel_map.csv.dates):
+            read = _after(last, read)
+            last = float(np.fmax.reduce(read[_SPEED].time, initial=last))
+        known = known or list(read)
+        plausible = {name: _without_implausible(c) for name, c in _without_empty_rows(read).items()}
+        yield _over_one_time(plausible, known, float(channel_map.preparation.raster))
+
+
+def _after(last: float, channels: dict[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels whose clock, one of a day, runs on from the last time of the piece before, s."""
+    first = next(iter(channels[_SPEED].time[np.isfinite(channels[_SPEED].time)]), math.nan)
+    days = DAY * np.nan_to_num(np.round((last - first) / DAY))
+    axes = {id(channel.time): channel.time + max(days, 0.0) for channel in channels.values()}
+    return {name: replace(channel, time=axes[id(channel.time)]) for name, channel in channels.items()}
+
+
+def _without_empty_rows(channels: dict[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels without rows that show neither a time nor a train speed: lines of empty cells."""
+    speed = channels[_SPEED]
+    filled = ~(np.isnan(speed.time) & np.isnan(speed.samples))
+    if filled.all() or not filled.any():
+        return channels
+    time = speed.time[filled]
+    return {
+        name: replace(channel, time=time, samples=channel.samples[filled])
+        if channel.time is speed.time
+        else channel
+        for name, channel in channels.items()
+    }
+
+
+def _without_implausible(channel: RawChannel) -> RawChannel:
+    implausible = beyond(channel.samples, CHANNEL_UNITS[channel.name]) | np.isinf(channel.samples)
+    if not implausible.any():
+        return channel
+    return replace(channel, samples=np.where(implausible, np.nan, channel.samples))
+
+
+def _over_one_time(channels: dict[str, RawChannel], known: Collection[str], raster: float) -> Piece:
+    """Return the `known` channels over the time of the train speed; NaN where one is not recorded there."""
+    time = channels[_SPEED].time
+    aligned: dict[str, RawChannel] = {}
+    intervals: dict[str, float] = {}
+    for name in known:
+        channel = channels.get(name)
+        if channel is None:
+            aligned[name] = RawChannel(name, "", time, np.full(len(time), np.nan))
+        elif channel.time is time or np.array_equal(channel.time, time, equal_nan=True):
+            aligned[name] = replace(channel, time=time)
+        else:
+            intervals[name] = usual_interval(channel.time)
+            aligned[name] = replace(channel, time=time, samples=resampled(channel, time, raster))
+    return Piece(aligned, intervals)
+
+
 WHEELS = of_wheelsets("wheel_speed")
 _COMMAND, _DEMAND, _LINE = ("brake_command",), ("demanded_pressure",), ("brake_line_pressure",)
 _CYLINDERS = of_wheelsets("cylinder_pressure")
@@ -68,8 +172,8 @@ class Rows(NamedTuple):
 
     def from_row(self, first: int) -> Rows:
         """Return the rows from one on."""
-        kept: list[Any] = [samples[first:].copy() for samples in self]
-        return Rows(*kept)
+        remaining: list[Any] = [samples[first:].copy() for samples in self]
+        return Rows(*remaining)
 
 
 def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
@@ -80,17 +184,17 @@ def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
     """
     trigger, threshold = channel_map.preparation.trigger, None
     alternatives = SHOWN_BY[trigger]
-    names = {*WHEELS, *(name for each in alternatives for name in each)}
+    names = {*WHEELS, *(name for names in alternatives for name in names)}
     for piece in pieces_of(path, channel_map, names):
         if threshold is None:
             shown_by = _shown_by(piece.channels, alternatives)
             threshold = _ON if shown_by == _COMMAND else _threshold(path, channel_map, shown_by)
-        shown = [piece.channels[name].samples for name in shown_by if name in piece.channels]
+        signals = [piece.channels[name].samples for name in shown_by if name in piece.channels]
         speed = piece.channels["speed"]
         wheels = [piece.channels[name].samples for name in WHEELS if name in piece.channels]
         rolling = _rolling(wheels, speed.samples) if len(wheels) > 1 else np.full(len(piece), np.nan)
-        pressed = np.fmax.reduce(shown)
-        braked = np.where(np.isfinite(pressed), pressed > threshold, np.nan)
+        signal = np.fmax.reduce(signals)
+        braked = np.where(np.isfinite(signal), signal > threshold, np.nan)
         yield Rows(speed.time, speed.samples, rolling, braked)
     if threshold is None:
         raise UnreadableError("no samples")
@@ -117,16 +221,17 @@ def _threshold(path: Path, channel_map: ChannelMap, names: Sequence[str]) -> flo
     rise = float(channel_map.preparation.trigger_pressure)
     counts = np.zeros(int(_HIGHEST / _CLASS) + 1, dtype=np.int64)
     for piece in pieces_of(path, channel_map, names):
-        shown = np.fmax.reduce([piece.channels[name].samples for name in names if name in piece.channels])
-        classes = np.clip(shown[np.isfinite(shown)] / _CLASS, 0.0, len(counts) - 1).round().astype(np.int64)
+        pressure = np.fmax.reduce([piece.channels[name].samples for name in names if name in piece.channels])
+        classes = (
+            np.clip(pressure[np.isfinite(pressure)] / _CLASS, 0.0, len(counts) - 1).round().astype(np.int64)
+        )
         counts += np.bincount(classes, minlength=len(counts))
-    lowest = _quantile(counts, 0.01 * _RELEASED)
-    offset = _CLASS * _quantile(counts[: lowest + int(rise / _CLASS) + 1], 0.5)
+    lowest = _class_of_quantile(counts, 0.01 * _RELEASED)
+    offset = _CLASS * _class_of_quantile(counts[: lowest + int(rise / _CLASS) + 1], 0.5)
     return rise + (offset if offset <= _LARGEST_OFFSET else 0.0)
 
 
-def _quantile(counts: NDArray[np.int64], share: float) -> int:
-    """Return the class in which a quantile lies."""
+def _class_of_quantile(counts: NDArray[np.int64], share: float) -> int:
     return int(np.searchsorted(np.cumsum(counts), share * counts.sum()))
 
 

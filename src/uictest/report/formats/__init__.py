@@ -1,58 +1,125 @@
-"""The formats of reports of a run: one module each, called like the format and found by its name."""
+"""A result in its formats: one module each, which knows no kind of result, and one place that writes them."""
 
 from __future__ import annotations
 
-import pkgutil
-from collections.abc import Callable, Iterable, Mapping
-from functools import cache
-from importlib import import_module
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
 
 from uictest.core import files
 
-if TYPE_CHECKING:
-    from uictest.report.content import RunContent
+if TYPE_CHECKING:  # the command line names the formats before it knows whether it writes any
+    from uictest.core.document import Document, Suite, Table
 
 IN_EVERY_RUN: Final = ("csv", "junit")
 """Formats that every run is written in."""
+DRAWING: Final = frozenset({"html"})
+"""Formats that draw stops, so that a report needs their traces."""
+WITH_TEST_PROPERTIES: Final = "junit-properties.xml"
+"""File whose testcases have properties, which the schema of Jenkins' xUnit plugin forbids."""
+
+LIMIT: Final = 1_000_000
+"""Bytes of a summary at most: GitHub refuses a step's summary above 1 MiB."""
+_ALWAYS: Final = 2_000
+"""Bytes that a summary may have where others have filled the file; chosen."""
+
+Chunks = Iterable[str | bytes]
 
 
-class ReportFormat(NamedTuple):
-    """A format; a module here registers its own under the name `FORMAT`.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Publication:
+    """A result in the form that every format is written from.
 
     Args:
-        files: returns the files of a run in this format, by name.
-        draws_stops: whether it draws stops, so that a report needs their traces.
-
+        document: what people read.
+        tables: what programs read, each in a file of its own.
+        page: returns index.html.
+        suites: returns the testcases; where asked, with the properties by which test management knows them.
+        named_in_tests: whether any testcase has such properties.
+        texts: documents in JSON, by the names of their files.
     """
 
-    files: Callable[[RunContent], Mapping[str, bytes]]
-    draws_stops: bool = False
+    document: Document
+    tables: Sequence[Table]
+    page: Callable[[], str]
+    suites: Callable[[bool], Iterable[Suite]] = lambda _: ()
+    named_in_tests: bool = False
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+    def markdown(self, limit: int = LIMIT) -> str:
+        """Return what people read in at most so many bytes; lines say what was left out."""
+        from uictest.report.formats.markdown import document_markdown
+
+        return document_markdown(self.document, limit, level=2)
+
+    def junit(self) -> str:
+        """Return the testcases as JUnit XML."""
+        from uictest.report.formats.junit import junit_text
+
+        return junit_text(self.suites(False))
 
 
-@cache
-def format_names() -> tuple[str, ...]:
-    """Return the names of all formats, in alphabetical order. Loads none of them."""
-    return tuple(sorted(module.name for module in pkgutil.iter_modules(__path__)))
+def _csv(result: Publication) -> Iterator[tuple[str, Chunks]]:
+    from uictest.report.formats.csv import csv_chunks
+
+    for table in result.tables:
+        yield table.file, csv_chunks(table)
 
 
-def format_named(name: str) -> ReportFormat:
-    """Return a format of `format_names()`."""
-    registered: ReportFormat = import_module(f"{__name__}.{name}").FORMAT
-    return registered
+def _html(result: Publication) -> Iterator[tuple[str, Chunks]]:
+    yield "index.html", [result.page()]
 
 
-def draws_stops(names: Iterable[str]) -> bool:
-    """Return whether any of these formats draws stops."""
-    return any(format_named(name).draws_stops for name in names)
+def _junit(result: Publication) -> Iterator[tuple[str, Chunks]]:
+    from uictest.report.formats.junit import junit_text
+
+    yield "junit.xml", [result.junit()]
+    if result.named_in_tests:
+        yield WITH_TEST_PROPERTIES, [junit_text(result.suites(True))]
 
 
-def write_formats(folder: Path, content: RunContent, names: Iterable[str]) -> list[Path]:
-    """Write a run in some formats into a folder, and return the files. Raises OSError."""
+def _markdown(result: Publication) -> Iterator[tuple[str, Chunks]]:
+    yield "summary.md", [result.markdown()]
+
+
+def _workbook(result: Publication) -> Iterator[tuple[str, Chunks]]:
+    from uictest.report.formats.xlsx import workbook_bytes
+
+    yield "report.xlsx", [workbook_bytes(result.tables)]
+
+
+FORMATS: Final[Mapping[str, Callable[[Publication], Iterator[tuple[str, Chunks]]]]] = MappingProxyType(
+    {"csv": _csv, "html": _html, "junit": _junit, "md": _markdown, "xlsx": _workbook}
+)
+"""Format -> what yields its files: the name of each below the folder, and its content."""
+
+
+def publish(result: Publication, formats: Iterable[str], folder: Path) -> list[Path]:
+    """Write a result into a folder: its documents in JSON, and files in formats; return the latter.
+
+    Raises OSError.
+    """
+    for name, text in result.texts.items():
+        # A file name that is no UTF-8 holds lone surrogates; spelled out they are valid JSON escapes.
+        files.write(folder, name, text.encode("utf-8", "backslashreplace"))
     paths = []
-    for name in names:
-        for file, text in format_named(name).files(content).items():
-            files.write(folder, file, text)
+    for name in dict.fromkeys(formats):
+        for file, chunks in FORMATS[name](result):
+            with files.new_file(folder, file) as target:
+                for chunk in chunks:
+                    target.write(chunk if isinstance(chunk, bytes) else chunk.encode())
             paths.append(folder / file)
     return paths
+
+
+def append_step_summary(result: Publication) -> None:
+    """Append what people read to the file that GitHub Actions names, where it does. Raises OSError."""
+    name = os.environ.get("GITHUB_STEP_SUMMARY")
+    if not name:
+        return
+    path = Path(name)
+    written = path.stat().st_size if path.exists() else 0
+    files.append(path, result.markdown(max(LIMIT - written, _ALWAYS)))

@@ -1,172 +1,107 @@
-"""The tables of a run: one row per case, wheelset, criterion, requirement, and stop of repeated cases."""
+"""Tables as CSV: comma, line feed, the keys of the columns first; missing numbers are empty cells."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+import csv
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
-from uictest.core.document import Cell, Data
-from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-from uictest.judging import evaluation
-from uictest.report import series as series_views
-from uictest.report.campaign import campaign_data
-from uictest.report.content import RunContent
-from uictest.report.firmness_sentences import firmness_rows
-from uictest.report.formats import ReportFormat
-from uictest.report.part_wording import changes_of, controller_of
-from uictest.report.repeat_wording import (
-    CRITERION_COLUMNS,
-    SHARE_COLUMNS,
-    any_repeated,
-    criterion_share_cells,
-    range_cells,
-    range_columns,
-    share_cells,
-    stop_rows,
-)
-from uictest.report.requirements import requirement_rows, verified_requirements
-from uictest.report.text_tables import csv_text
-from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.train_wording import TRAIN_COLUMNS, any_in_train, train_cells
-from uictest.report.verdict_sentences import definition_sentence, reading_sentences
+from uictest.core.document import Cell, Column, Table
+from uictest.report.words import csv_cell
 
 if TYPE_CHECKING:
-    from uictest.judging.series import SeriesResult
-
-_CRITERION_FIELDS = {
-    "layer": "layer",
-    "verdict": "status",
-    **{name: name for name in ("value", "unit", "lower", "upper", "margin", "reason")},
-}
-"""Column -> field of a verdict."""
+    import pyarrow as pa
 
 
-def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str = "") -> Data:
-    """Return one row per case: swept parameters (as written), outcome, controller, changes, measures.
-
-    `uictest_version` is that of built-in controllers.
-
-    Where a case repeats its stop, there are its share of stops that pass and the range of each measure, too;
-    where one is a car of a train, its train and the forces in its couplers.
-    """
-    keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
-    columns = [
-        *("id", "scenario"),
-        *keys,
-        *("expect", "outcome", "test_validity", "rail_validity", "requirement_status", "met", "reason"),
-        *("controller", "controller_version"),
-        *("changed_parameters", "test_case", "requirements"),
-        *(TRAIN_COLUMNS if any_in_train(results) else ()),
-        *_of_repeated(results, SHARE_COLUMNS),
-        *STOP_COLUMNS,
-        *_of_repeated(results, range_columns(STOP_COLUMNS)),
-    ]
-    return Data(columns, [_summary_row(result, uictest_version) for result in results])
+def csv_text(table: Table) -> str:
+    """Return a table as CSV."""
+    return b"".join(csv_chunks(table)).decode()
 
 
-def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Data:
-    """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_table`."""
-    ranges = _of_repeated(results, range_columns(WHEELSET_COLUMNS))
-    return Data(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(_wheelset_rows(results)))
+def csv_chunks(table: Table) -> Iterator[bytes]:
+    """Yield a table as CSV, piece by piece."""
+    if isinstance(table.rows, ParquetRows):
+        yield from table.rows.csv()
+        return
+    buffer = io.StringIO(newline="")
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(csv_cell(column.key) for column in table.for_programs)
+    for record in table.records:
+        writer.writerow(map(_cell, record.values()))
+        yield buffer.getvalue().encode()
+        buffer.seek(0)
+        buffer.truncate()
+    yield buffer.getvalue().encode()
 
 
-def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
-    """Return one row per case and criterion, with the definitions that its verdict depends on.
-
-    Where a case repeats its stop, there are the counts of its stops and the range of the values, too.
-    """
-    own = [*_of_repeated(results, CRITERION_COLUMNS), "requirements"]
-    columns = ["id", "criterion", *_CRITERION_FIELDS, "readings", *own, "definition"]
-    return Data(columns, list(_criterion_rows(results)))
+def _cell(value: Cell) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return csv_cell(value)
+    return str(value).lower() if isinstance(value, bool) else repr(value)
 
 
-def repeats_table(results: Sequence[evaluation.CaseResult]) -> Data:
-    """Return one row per stop of every repeated case: seed, outcome, measures."""
-    wheelsets = (f"{name}_{position}" for position in WHEELSETS for name in WHEELSET_COLUMNS)
-    statements = ("outcome", "test_validity", "requirement_status", "reason")
-    columns = ["id", "seed", *statements, *STOP_COLUMNS, *wheelsets]
-    return Data(columns, list(stop_rows(results)))
+_AT_ONCE: Final = 1024
 
 
-def requirements_table(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> Data:
-    """Return one row per requirement and case or series that names it."""
-    return Data.of(list(requirement_rows(verified_requirements(results, series))))
+@dataclass(frozen=True, slots=True)
+class ParquetRows:
+    """The rows of a Parquet file, as mappings from a column to its cell."""
+
+    path: Path
+
+    def __len__(self) -> int:
+        """Return their number. Raises OSError."""
+        import pyarrow.parquet as pq
+
+        return int(pq.read_metadata(self.path).num_rows)
+
+    def __iter__(self) -> Iterator[dict[str, Cell]]:
+        """Iterate over the rows. Raises OSError, and ValueError where the file is damaged."""
+        for batch in self._batches():
+            yield from batch.to_pylist()
+
+    def csv(self) -> Iterator[bytes]:
+        """Yield the rows as CSV with a header, formulas guarded, faster than cell by cell."""
+        from pyarrow.csv import CSVWriter, WriteOptions
+
+        buffer, writer = io.BytesIO(), None
+        for batch in self._batches():
+            guarded = _without_formulas(batch)
+            if writer is None:
+                options = WriteOptions(quoting_style="needed", quoting_header="needed")
+                writer = CSVWriter(buffer, guarded.schema, write_options=options)
+            writer.write(guarded)
+            yield buffer.getvalue()
+            buffer.seek(0)
+            buffer.truncate()
+
+    def table(self, name: str) -> Table:
+        """Return the table of all columns. Raises OSError, and ValueError where the file is damaged."""
+        import pyarrow.parquet as pq
+
+        columns: list[Column[Any]] = [Column(key=key) for key in pq.read_schema(self.path).names]
+        return Table(columns, self, name=name, all_in=self.path.name)
+
+    def _batches(self) -> Iterator[pa.RecordBatch]:
+        import pyarrow.parquet as pq
+
+        with pq.ParquetFile(self.path) as file:
+            yield from file.iter_batches(_AT_ONCE)
 
 
-def firmness_data(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult]) -> Data:
-    """Return one row per number and criterion of each case or series of which it was asked how firm it is."""
-    judged: list[evaluation.CaseResult | SeriesResult] = [*results, *series]
-    asked = [(each.id, each.firmness) for each in judged if each.firmness is not None]
-    return Data.of([row for name, firmness in asked for row in firmness_rows(name, firmness)])
+def _without_formulas(batch: pa.RecordBatch) -> pa.RecordBatch:
+    import pyarrow as pa
 
-
-def run_tables(content: RunContent) -> Mapping[str, Data]:
-    """Return the tables of a run by the names of their files, without `.csv`.
-
-    Without repeated cases, requirements, firmness, series or a log, the tables of these are missing.
-    """
-    results = content.results
-    optional = {
-        "repeats": repeats_table(results),
-        "requirements": requirements_table(results, content.series),
-        "firmness": firmness_data(results, content.series),
-    }
-    return {
-        "summary": summary_table(results, content.uictest_version),
-        "wheelsets": wheelsets_table(results),
-        "criteria": criteria_table(results),
-        **{name: table for name, table in optional.items() if table.rows},
-        **(series_views.series_tables(content.series) if content.series else {}),
-        **campaign_data(content.campaign),
-    }
-
-
-def _of_repeated(results: Sequence[evaluation.CaseResult], columns: Iterable[str]) -> Iterable[str]:
-    return columns if any_repeated(results) else ()
-
-
-def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
-    parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
-    names = ("id", "scenario", "outcome", "test_validity", "requirement_status", "met", "reason")
-    own: dict[str, Cell] = {name: getattr(result, name) for name in names}
-    own |= {"expect": str(result.expect), "rail_validity": result.rail.test_validity if result.rail else ""}
-    controller, version = controller_of(result, uictest_version)
-    return {
-        **parameters,
-        **own,
-        "controller": controller,
-        "controller_version": version,
-        "changed_parameters": "; ".join(changes_of(result)),
-        "test_case": result.test_case,
-        "requirements": "; ".join(result.requirements),
-        **train_cells(result),
-        **share_cells(result),
-        **(result.measures or {}),
-        **range_cells(result, STOP_COLUMNS),
-    }
-
-
-def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
-    for result in results:
-        for position, wheelset in enumerate(result.wheelsets, start=1):
-            ranges = range_cells(result, WHEELSET_COLUMNS, position)
-            yield {"id": result.id, "wheelset": position, **wheelset, **ranges}
-
-
-def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
-    for result in results:
-        for verdict in result.criteria:
-            yield {
-                "id": result.id,
-                "criterion": verdict.id,
-                **{column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()},
-                "readings": "; ".join(reading_sentences(verdict)),
-                "requirements": "; ".join(verdict.requirements),
-                **criterion_share_cells(verdict),
-                "definition": definition_sentence(verdict),
-            }
-
-
-FORMAT = ReportFormat(
-    lambda content: {f"{name}.csv": csv_text(*table).encode() for name, table in run_tables(content).items()}
-)
+    columns = []
+    for column in batch.columns:
+        if pa.types.is_string(column.type):
+            texts = column.to_pylist()
+            guarded = {text: csv_cell(text) for text in set(texts) if text is not None}
+            column = pa.array([guarded.get(text) for text in texts], pa.string())
+        columns.append(column)
+    return pa.RecordBatch.from_arrays(columns, names=batch.schema.names)

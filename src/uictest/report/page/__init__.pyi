@@ -1,23 +1,27 @@
-from .axis import spanned as spanned
-from .case_view import plot_data as plot_data, plots_json as plots_json, sampling_text as sampling_text
-from .forest import Effect as Effect, forest as forest
-from .links import case_anchor as case_anchor, fragment as fragment
+from .marks import Mark as Mark
 from .plot import (
     ROW_PIXELS as ROW_PIXELS,
+    Effect as Effect,
     Plot as Plot,
     Shape as Shape,
     dot as dot,
+    forest as forest,
     row_at as row_at,
     rows_plot as rows_plot,
+    spanned as spanned,
 )
-from .rendering import render as render
+from .rendering import case_anchor as case_anchor, fragment as fragment, render as render
 from .run_page import page_html as page_html
-from .stop.drawing import Drawing as Drawing, drawing_of as drawing_of
-from .stop.mark import Mark as Mark
-from .stop.overlay_view import (
+from .stop_plots import (
     STEPS as STEPS,
-    OverlayView as OverlayView,
-    overlay_view as overlay_view,
+    Drawing as Drawing,
+    drawing_of as drawing_of,
+    packed as packed,
+    panel_form as panel_form,
+    panels_over_time as panels_over_time,
+    plot_data as plot_data,
+    plots_json as plots_json,
+    sampling_text as sampling_text,
     script_json as script_json,
 )
-from .sweep.sweep_page import load_sweep_page as load_sweep_page, sweep_page_html as sweep_page_html
+from .sweep_page import sweep_page_html as sweep_page_html

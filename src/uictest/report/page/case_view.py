@@ -1,88 +1,50 @@
-"""The data of one drawn case on a page."""
+"""A drawn case on a page: its stop with plots and margins, the stops of a repeated case, its parts."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Final, NamedTuple
 
-import numpy as np
-
+from uictest.core import document
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, Column
 from uictest.judging import evaluation
+from uictest.report.case_conditions import slide_speed
+from uictest.report.case_lines import turns_text
 from uictest.report.content import CaseDescription
 from uictest.report.difference import Difference, case_explanation, case_word
-from uictest.report.escaping import printable
-from uictest.report.page.links import case_anchor, fragment
-from uictest.report.page.repeats_view import RepeatsView, repeats_view
-from uictest.report.page.stop.drawing import Drawing, drawing_of
-from uictest.report.page.stop.margins import Margins, margins_of
-from uictest.report.page.stop.mark import Mark
-from uictest.report.page.stop.marks import fault_marks, marks_of
-from uictest.report.page.stop.overlay_view import packed, panel_form, script_json
-from uictest.report.part_wording import slide_speed
-from uictest.report.repeat_wording import band_text
-from uictest.report.traces.quantities import (
-    LOOPS,
-    ORDINARY_CREEP,
-    PANELS,
-    PLOT_QUANTITIES,
-    STRIPS,
-    VENT,
-    WHEELSETS,
-    Panel,
-    key_of,
-    loop_lines,
-    panel_lines,
-)
-from uictest.report.traces.trace import BINS, MOST_SAMPLES, Curve, PlotTrace
-from uictest.report.traces.vent_cycles import VentCycle
-from uictest.report.verdict_sentences import real_time_sentences
-
-_COMPARED = (
-    Panel("speed", "Speed of train (bold) and wheelset", "km/h", ("wheel_speed", "speed"), 1.5),
-    Panel("slide", "Slide", "%", ("slide",), include=(0.0, ORDINARY_CREEP)),
-    Panel("pressure", "Tank pressure", "bar", ("tank_pressure",)),
-    Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
-    Panel("deceleration", "Deceleration", "g", ("deceleration",)),
-    Panel("adhesion", "Adhesion", "dimensionless", ("adhesion",)),
-)
-"""Panels of two stops laid over each other, from top to bottom; the valves stand below the first."""
-
-EDGES = ("lowest", "highest")
-"""What stands before the name of a line whose band these edges have."""
-
-HeadlineMeasure = tuple[str, str, str]
-"""Label, number (empty where there is none), unit."""
+from uictest.report.measure_columns import measure_columns
+from uictest.report.page.margins import Margins, margins_of
+from uictest.report.page.marks import fault_marks, marks_of
+from uictest.report.page.plot import Axis
+from uictest.report.page.rendering import case_anchor, case_fragment
+from uictest.report.page.stop_plots import drawing_of, milliseconds, plot_data, sampling_text, script_json
+from uictest.report.robustness import band_text, drawn_sentence, repeat_sentences
+from uictest.report.traces.quantities import LOOPS, PANELS, PLOT_QUANTITIES, STRIPS, VENT, WHEELSETS, key_of
+from uictest.report.traces.trace import PlotTrace
+from uictest.report.verdict_sentences import failing_first, real_time_sentences, without_checks_that_hold
+from uictest.report.words import quantity
 
 
 class CaseView(NamedTuple):
-    """A drawn case. `anchor` is that of its part of the page; `data` is the JSON its plots are drawn from.
+    """A case that is drawn.
 
-    `explanation` is empty where the case passes; `note` says what lines show; `command` runs the case alone
-    and is empty where there is no such command. `band` says what the band behind the lines
-    spans and is empty without one.
+    Args:
+        result: of the case.
+        subject: its description.
+        trace: of the stop that is drawn.
+        margins: of its criteria.
+        differences: those from the baseline.
+        command: what runs the case alone; empty where there is no such command.
+
     """
 
-    anchor: str
     result: evaluation.CaseResult
     subject: CaseDescription
-    word: str
-    explanation: Sequence[str]
-    headline: Sequence[HeadlineMeasure]
-    drawing: Drawing
-    data: str
+    trace: PlotTrace
     margins: Margins
-    note: str
-    repeats: RepeatsView | None = None
+    differences: Sequence[Difference] = ()
     command: str = ""
-    band: str = ""
-    vents: Sequence[VentCycle] = ()
-
-    @property
-    def fragment(self) -> str:
-        """What stands behind the `#` of a link to it."""
-        return fragment(self.anchor)
 
 
 def case_view(
@@ -91,57 +53,41 @@ def case_view(
     trace: PlotTrace,
     differences: Sequence[Difference] = (),
     command: str = "",
-    accepted: Mapping[str, float] = MappingProxyType({}),
+    accepted: Mapping[str, float] | None = None,
 ) -> CaseView:
-    """Return the view of a case with its plots drawn.
-
-    Args:
-        result: of the case.
-        subject: its description.
-        trace: of the stop that is drawn.
-        differences: those from the baseline.
-        command: what runs the case alone; empty where there is no such command.
-        accepted: criterion -> its value in the baseline.
-
-    """
-    drawn = result.drawn_stop
-    marks = [*fault_marks(trace), *marks_of(drawn.criteria, trace)]
-    return CaseView(
-        case_anchor(result.id),
-        result,
-        subject,
-        case_word(result, differences),
-        case_explanation(result, differences) if differences or not result.met else (),
-        list(_headline(result)),
-        drawing_of(trace),
-        script_json(plot_data(result.id, trace, marks, recorded=bool(subject.recorded))),
-        margins_of(result.criteria, drawn.criteria, trace, accepted),
-        " ".join(_notes(drawn, subject, trace)),
-        repeats_view(result),
-        command,
-        band_text(result, trace.band_stops),
-        trace.vents,
-    )
+    """Return the view of a case; `accepted` has the values of its criteria in the baseline."""
+    margins = margins_of(result.criteria, result.drawn_stop.criteria, trace, accepted or {})
+    return CaseView(result, subject, trace, margins, differences, command)
 
 
-def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
+def stop_json(view: CaseView) -> str:
+    """Return what the script draws the stop of a case from."""
+    marks = [*fault_marks(view.trace), *marks_of(view.result.drawn_stop.criteria, view.trace)]
+    recorded = bool(view.subject.recorded)
+    return script_json(plot_data(view.result.id, view.trace, marks, recorded=recorded))
+
+
+def stop_notes(view: CaseView) -> Iterator[str]:
+    """Yield what a reader of the plots must know: faults, how the lines were sampled, what is missing."""
+    result, trace = view.result.drawn_stop, view.trace
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
     if result.controller_log:
         yield f"The controller printed: {result.controller_log}."
-    for span in trace.faults:
-        yield f"Fault {span.label} from {span.start:.4g} s to {span.end:.4g} s."
+    for fault in trace.faults:
+        yield f"Fault {fault.label} from {fault.start:.4g} s to {fault.end:.4g} s."
     yield sampling_text(trace)
-    for low, _ in list(trace.band.values())[:1]:
-        part = _milliseconds(float(low.x[1] - low.x[0]))
+    if trace.band:
+        lowest, _ = next(iter(trace.band.values()))
+        part = milliseconds(float(lowest.x[1] - lowest.x[0]))
         yield f"The band takes the lowest and the highest sample of every {part}."
     labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:
         yield f"Derived from recorded speeds: {', '.join(labels)}."
     if not trace.states:
         return
-    every = _milliseconds(trace.interval)
-    recorded = f", but none between two samples, {every} apart" if subject.recorded else ""
-    yield f"Valves show every change that was recorded{recorded}."
+    every = milliseconds(trace.interval)
+    between = f", but none between two samples, {every} apart" if view.subject.recorded else ""
+    yield f"Valves show every change that was recorded{between}."
     drawn = sum(len(trace.valve_spans(n, (VENT,))) for n in WHEELSETS)
     counted = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
     if drawn < counted:
@@ -151,101 +97,170 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
         )
 
 
-def sampling_text(trace: PlotTrace) -> str:
-    """Return how the points of a line were taken from the stop."""
-    part = _milliseconds((trace.end - trace.start) / BINS)
-    is_long = trace.interval * MOST_SAMPLES < trace.end - trace.start
-    drawn = f" Drawn through the smallest and the largest sample of every {part}." if is_long else ""
-    rounded = (
-        "Samples are rounded to a fifth of the last decimal that the cursor shows; instants in the plots are"
-        " those of samples, while a simulation measures at every step."
-    )
-    return f"Sampled every {_milliseconds(trace.interval)}.{drawn} {rounded}"
-
-
-def _milliseconds(seconds: float) -> str:
-    return f"{1e3 * seconds:.3g} ms"
-
-
-def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
-    """Yield the measures that a brake engineer looks at first."""
+def headline(result: evaluation.CaseResult) -> Iterator[tuple[str, str, str]]:
+    """Yield the measures that a brake engineer looks at first: label, number, empty without one, and unit."""
     measures = result.measures
     if measures is not None:
-        yield "braking distance", _number(measures["braking_distance_m"]), "m"
+        yield "braking distance", _headline_number(measures["braking_distance_m"]), "m"
         corrected = measures["corrected_distance_m"]
         if math.isfinite(corrected) and corrected != measures["braking_distance_m"]:
-            yield "corrected distance", _number(corrected), "m"
-        yield "reference distance", _number(measures["reference_distance_m"]), "m"
-        yield "braking time", _number(measures["braking_time_s"]), "s"
-        yield "mean deceleration", _number(measures["mean_deceleration_mps2"]), "m/s²"
-        yield "initial adhesion", _number(measures["initial_adhesion_g"]), "g"
-        yield "deceleration distance", _number(measures["deceleration_distance_m"]), "m"
-        yield "adhesion utilisation", _number(100.0 * measures["adhesion_utilisation"]), "%"
-        yield "reservoir margin", _number(measures["reservoir_margin_bar"]), "bar"
+            yield "corrected distance", _headline_number(corrected), "m"
+        yield "reference distance", _headline_number(measures["reference_distance_m"]), "m"
+        yield "braking time", _headline_number(measures["braking_time_s"]), "s"
+        yield "mean deceleration", _headline_number(measures["mean_deceleration_mps2"]), "m/s²"
+        yield "initial adhesion", _headline_number(measures["initial_adhesion_g"]), "g"
+        yield "deceleration distance", _headline_number(measures["deceleration_distance_m"]), "m"
+        yield "adhesion utilisation", _headline_number(100.0 * measures["adhesion_utilisation"]), "%"
+        yield "reservoir margin", _headline_number(measures["reservoir_margin_bar"]), "bar"
     if result.wheelsets:
-        slides = [100 * wheelset["maximum_slide"] for wheelset in result.wheelsets]
-        yield f"largest slide above {slide_speed([result])}", _number(max(slides)), "%"
+        largest = max(100.0 * wheelset["maximum_slide"] for wheelset in result.wheelsets)
+        yield f"largest slide above {slide_speed([result])}", _headline_number(largest), "%"
         vents = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
         yield "valve actuations", f"{vents:g}" if vents == vents else "-", ""
     if measures is not None:
-        yield "air consumed", _number(measures["air_consumed_nl"]), "NL"
+        yield "air consumed", _headline_number(measures["air_consumed_nl"]), "NL"
         if measures.get("track_brake_time_s", 0.0) > 0.0:
-            yield "heat of the track brake", _number(measures["track_brake_energy_kj"]), "kJ"
+            yield "heat of the track brake", _headline_number(measures["track_brake_energy_kj"]), "kJ"
 
 
-def plots_json() -> str:
-    """Return what all cases have in common: panels, loops and their lines."""
-    panels = [panel_form(panel, panel_lines(panel)) for panel in PANELS]
-    loops = [
-        loop._asdict() | {"lines": [line._asdict() | {"over": across} for across, line in loop_lines(loop)]}
-        for loop in LOOPS
-    ]
-    quantities = {key: quantity._asdict() for key, quantity in PLOT_QUANTITIES.items()}
-    strips = [
-        {
-            **strip._asdict(),
-            "lanes": [lane._asdict() for lane in strip.lanes],
-            "heading": strip.heading,
-            "rows": strip.rows,
-        }
-        for strip in STRIPS
-    ]
-    compared = [panel_form(panel, panel_lines(panel)) for panel in _COMPARED]
-    return script_json(
-        {
-            "panels": panels,
-            "loops": loops,
-            "quantities": quantities,
-            "strips": strips,
-            "compared": compared,
-        }
-    )
-
-
-def plot_data(
-    title: str, trace: PlotTrace, marks: Sequence[Mark] = (), *, recorded: bool = False
-) -> dict[str, Any]:
-    """Return what the script draws a stop from; `recorded` where the stop was not simulated."""
-    states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
-    steps = {name: PLOT_QUANTITIES[key_of(name)].step for name in trace.curves}
-    edges = {
-        f"{end} {name}": edge
-        for name, band in trace.band.items()
-        for end, edge in zip(EDGES, band, strict=True)
-    }
-    band = {"band": packed(edges, 0.0, {each: steps[each.split()[1]] for each in edges})} if edges else {}
-    return {
-        **band,
-        "id": printable(title),
-        "recorded": recorded,
-        "sampling": sampling_text(trace),
-        "start": trace.start,
-        "end": trace.end,
-        "over_time": packed({**trace.curves, **states}, trace.interval, steps),
-        "marks": [mark._asdict() for mark in marks],
-    }
-
-
-def _number(value: float) -> str:
-    """Return a number for a headline: four significant digits, an empty text where there is none."""
+def _headline_number(value: float) -> str:
+    """Return four significant digits, an empty text where there is no number."""
     return "" if value != value else f"{value:.4g}" if abs(value) < 1e4 else f"{value:.0f}"
+
+
+MOST_STOPS: Final = 100
+"""Stops that are listed and drawn one by one; the numbers and the counts are those of all."""
+_AIR: Final = 0.08
+"""Of the range of values and limits: what is left free on both sides; chosen."""
+
+
+class Dot(NamedTuple):
+    """The value of one stop at `x` per cent of the scale, and its status; `row` keeps dots apart."""
+
+    x: float
+    row: int
+    status: evaluation.Status
+    seed: int
+    value: float
+
+
+class CriterionDots(NamedTuple):
+    """The values of a criterion over the stops, on a scale of 100 that holds its bounds.
+
+    `first` and `last` are the ends of what the bounds allow, `median` that of the values; None where no stop
+    has a value.
+    """
+
+    verdict: evaluation.Verdict
+    counts: evaluation.OverStops
+    first: float
+    last: float
+    median: float | None
+    dots: Sequence[Dot]
+
+
+def criteria_over_stops(
+    result: evaluation.CaseResult, repeats: evaluation.Repeats
+) -> Iterator[CriterionDots]:
+    """Yield the values of every criterion over the stops of a case, failing ones first."""
+    for verdict in failing_first(without_checks_that_hold(result.criteria)):
+        counts = verdict.over_stops
+        if counts is None or counts.lowest is None or counts.highest is None:
+            continue
+        ends = [counts.lowest, counts.highest, verdict.lower, verdict.upper]
+        known = [end for end in ends if end is not None and math.isfinite(end)]
+        air = _AIR * (max(known) - min(known)) or 1.0
+        scale = Axis(min(known) - air, max(known) + air, 0.0, 100.0)
+        dots: list[Dot] = []
+        highest_rows: dict[int, int] = {}
+        for stop in repeats.stops[:MOST_STOPS]:
+            of_stop = stop.verdict(verdict.id)
+            if of_stop is not None and of_stop.value is not None and math.isfinite(of_stop.value):
+                x = round(scale.at(of_stop.value), 1)
+                row = highest_rows[round(x)] = highest_rows.get(round(x), -1) + 1
+                dots.append(Dot(x, row, of_stop.status, stop.seed, of_stop.value))
+        yield CriterionDots(
+            verdict,
+            counts,
+            0.0 if verdict.lower is None else round(scale.at(verdict.lower), 1),
+            100.0 if verdict.upper is None else round(scale.at(verdict.upper), 1),
+            None if verdict.value is None else round(scale.at(verdict.value), 1),
+            dots,
+        )
+
+
+def stops_table(result: evaluation.CaseResult, repeats: evaluation.Repeats) -> document.Table:
+    """Return the stops of a repeated case, one by one."""
+    columns: list[document.Column[Any]] = [
+        document.Column(heading="seed", text=lambda stop: str(stop.seed), literal=True, right=True),
+        document.Column(heading="outcome", text=lambda stop: stop.outcome),
+        *measure_columns([result]),
+        document.Column(heading="why", text=lambda stop: stop.reason, wraps=True),
+    ]
+    return document.Table(columns, repeats.stops[:MOST_STOPS])
+
+
+class _MeasureSpread(NamedTuple):
+    """Median and spread of one column of results; `wheelset` is None for one of the stop."""
+
+    column: Column
+    wheelset: int | None
+    spread: evaluation.Spread
+
+
+def _spread_column(heading: str, name: str) -> document.Column[_MeasureSpread]:
+    return document.Column(heading=heading, value=lambda row: getattr(row.spread, name), digits="significant")
+
+
+_SPREADS: Final[tuple[document.Column[_MeasureSpread], ...]] = (
+    document.Column(heading="measure", text=lambda row: row.column.name, literal=True),
+    document.Column(heading="wheelset", text=lambda row: str(row.wheelset or "")),
+    _spread_column("lowest", "lowest"),
+    _spread_column("quartile", "lower_quartile"),
+    _spread_column("median", "median"),
+    _spread_column("quartile", "upper_quartile"),
+    _spread_column("highest", "highest"),
+    document.Column(heading="unit", text=lambda row: row.column.unit.removeprefix("1")),
+    document.Column(heading="stops", text=lambda row: str(row.spread.count), right=True),
+)
+
+
+def spreads_table(repeats: evaluation.Repeats) -> document.Table:
+    """Return the spread of every measure that is not the same in all stops."""
+    of_stop = [(column, None) for column in STOP_COLUMNS.values()]
+    of_wheelsets = [(column, wheelset) for column in WHEELSET_COLUMNS.values() for wheelset in WHEELSETS]
+    rows = []
+    for column, wheelset in (*of_stop, *of_wheelsets):
+        spread = evaluation.spread_of(repeats.values(column.name, wheelset))
+        if spread is not None and spread.lowest != spread.highest:
+            rows.append(_MeasureSpread(column, wheelset, spread))
+    return document.Table(_SPREADS, rows)
+
+
+_MOST_PARTS: Final = 100
+"""Parts that a page shows: each takes up to 10 kB of it."""
+
+
+def shown_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> dict[str, Any]:
+    """Return the distinct parts of some cases that a page shows in full, and how many more there are.
+
+    They stand by their ids, those of a kind together, each in the order of first use.
+    """
+    table = evaluation.parts_table(cases)
+    parts = list(table.values())[:_MOST_PARTS]
+    kinds = list(dict.fromkeys(part.kind for part in parts))
+    shown = {part.id: part for part in sorted(parts, key=lambda part: kinds.index(part.kind))}
+    return {"parts": shown, "parts_not_shown": len(table) - len(shown)}
+
+
+_FUNCTIONS: Final[tuple[Callable[..., Any], ...]] = (
+    *(case_anchor, case_fragment, case_word, case_explanation, headline, quantity, turns_text),
+    *(drawing_of, stop_json, stop_notes, band_text),
+    *(repeat_sentences, drawn_sentence, criteria_over_stops, spreads_table, stops_table),
+)
+STOP_WORDS: Final[Mapping[str, Any]] = {
+    **{function.__name__: function for function in _FUNCTIONS},
+    "plot_titles": {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)},
+    "most_stops": MOST_STOPS,
+}
+"""What the templates of a stop and of its repeats show a case by."""

@@ -1,26 +1,25 @@
-"""What a page answers first: what is not as expected, by how much and where; else what came closest to it."""
+"""What a page answers first: what is not as expected, by how much and where, and what runs it again."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Final, NamedTuple
 
 from uictest.judging import evaluation
-from uictest.report import series as series_views
-from uictest.report.causes import cause_sentences
-from uictest.report.close_calls import CloseCall, close_calls
-from uictest.report.content import CaseDescription, RunContent
+from uictest.report.content import CASES_IN_PYTHON, RunContent, RunManifest
 from uictest.report.difference import difference_sentences
-from uictest.report.page.case_view import CaseView
-from uictest.report.page.links import case_anchor, fragment, rerun_command, series_anchor
-from uictest.report.page.stop.margins import Margin, Margins, margins_of
-from uictest.report.verdict_sentences import statement_sentence
+from uictest.report.page.margins import Margin, Margins
+from uictest.report.page.rendering import case_fragment, series_fragment
+from uictest.report.series_report import series_explanation
+from uictest.report.verdict_sentences import cause_sentences, statement_sentence
+from uictest.report.words import argument, printable, result_word
 
 MOST_FINDINGS: Final = 12
 """Cases that the first screen names; the table below it has all of them, these first."""
 _DIFFERENCES: Final = 3
 _CONDITIONS: Final = ("initial speed", "brake", "rail", "WSP")
-"""Names of settings that stand with a finding."""
+"""Names of settings that stand with a finding: what a reader must know before its values mean anything."""
 _MOST_CRITERIA: Final = 10
 """Columns of the matrix: more would leave no room for the names of the cases."""
 
@@ -43,64 +42,47 @@ class Finding(NamedTuple):
     conditions: str = ""
 
 
-class Closest(NamedTuple):
-    """The criterion with the least to spare, of a case that is as expected."""
-
-    id: str
-    fragment: str
-    margin: Margin
-
-
 def findings_of(
     content: RunContent, margins: Mapping[str, Margins], commands: Mapping[str, str]
-) -> list[Finding]:
-    """Return what is not as expected, series last: their verdict rests on the stops of many cases."""
-    return [
-        *(_of_case(content, each, margins, commands) for each in content.ranked if not content.passes(each)),
-        *(
-            Finding(
-                series_views.series_word(each),
-                each.id,
-                fragment(series_anchor(each.id)),
+) -> Iterator[Finding]:
+    """Yield what is not as expected, series last: their verdict rests on the stops of many cases."""
+    for result in content.ranked:
+        if not content.passes(result):
+            yield _of_case(content, result, margins[result.id], commands[result.id])
+    for series in content.series:
+        if not series.met:
+            yield Finding(
+                result_word(series),
+                series.id,
+                series_fragment(series.id),
                 (),
-                series_views.series_explanation(each),
-                rerun_command(content.manifest, each.file, each.id),
+                series_explanation(series),
+                rerun_command(content.manifest, series.file, series.id),
             )
-            for each in content.series
-            if not each.met
-        ),
-    ]
 
 
-def _of_case(
-    content: RunContent,
-    result: evaluation.CaseResult,
-    margins: Mapping[str, Margins],
-    commands: Mapping[str, str],
-) -> Finding:
-    missed = () if result.met else [each for each in margins[result.id].judged if _decides(each, result)]
+def _of_case(content: RunContent, result: evaluation.CaseResult, margins: Margins, command: str) -> Finding:
+    missed = [] if result.met else [margin for margin in margins.judged if _decides(margin, result)]
     causes = cause_sentences(result)
-    sentences = [each for each in content.explanation(result, _DIFFERENCES) if each not in causes]
+    settings = content.subject(result.id).settings
+    conditions = [f"{name} {text}" for name, text in settings.items() if name in _CONDITIONS]
     if missed:
         differences = difference_sentences(content.differences(result.id), _DIFFERENCES)
         sentences = [statement_sentence(result), *differences]
+        conditions.append(f"expected: {result.expect}")
+    else:
+        explanation = content.explanation(result, _DIFFERENCES)
+        sentences = [sentence for sentence in explanation if sentence not in causes]
     return Finding(
         content.word(result),
         result.id,
-        fragment(case_anchor(result.id)),
+        case_fragment(result.id),
         missed,
         sentences,
-        commands[result.id],
+        command,
         causes,
-        "; ".join(
-            [*_conditions(content.subject(result.id)), *([f"expected: {result.expect}"] if missed else [])]
-        ),
+        "; ".join(conditions),
     )
-
-
-def _conditions(subject: CaseDescription) -> Iterator[str]:
-    """Yield what a reader must know of a stop before its values mean anything."""
-    yield from (f"{name} {text}" for name, text in subject.settings.items() if name in _CONDITIONS)
 
 
 def _decides(margin: Margin, result: evaluation.CaseResult) -> bool:
@@ -110,46 +92,19 @@ def _decides(margin: Margin, result: evaluation.CaseResult) -> bool:
     return True
 
 
-def closest_of(content: RunContent, margins: Mapping[str, Margins]) -> Closest | None:
-    """Return the criterion of a passing case that has the least to spare; None where none has a share."""
-    passing = (result for result in content.results if result.outcome == "pass" and content.passes(result))
+def closest_of(content: RunContent, margins: Mapping[str, Margins]) -> tuple[str, Margin] | None:
+    """Return the passing case and its criterion that has the least to spare; None where none has a share."""
     shares = [
-        (each.to_spare, result.id, each)
-        for result in passing
-        for each in margins[result.id].judged
-        if each.to_spare is not None
+        (margin.to_spare, result.id, margin)
+        for result in content.results
+        if result.outcome == "pass" and content.passes(result)
+        for margin in margins[result.id].judged
+        if margin.to_spare is not None
     ]
     if not shares:
         return None
-    _, name, margin = min(shares, key=lambda share: share[:2])
-    return Closest(name, fragment(case_anchor(name)), margin)
-
-
-class Close(NamedTuple):
-    """A close or uncertain verdict; `fragment` leads to its case or series, `taken` says when it was."""
-
-    call: CloseCall
-    fragment: str
-    taken: str
-
-
-def close_of(content: RunContent, margins: Mapping[str, Margins]) -> list[Close]:
-    """Return what is close to its limit, or not certain, with where it is shown."""
-    taken = {
-        (own, each.verdict.id): each.taken_text for own, judged in margins.items() for each in judged.judged
-    }
-    return [
-        Close(call, fragment(series_anchor(call.of)), "")
-        if call.of_series
-        else Close(call, fragment(case_anchor(call.of)), taken.get((call.of, call.criterion), ""))
-        for call in close_calls(content.results, content.series)
-    ]
-
-
-def margins_of_all(content: RunContent, drawn: Iterable[CaseView]) -> dict[str, Margins]:
-    """Return the margins of every case by id; those of drawn ones with the instants of their values."""
-    known = {view.result.id: view.margins for view in drawn}
-    return {each.id: known.get(each.id) or margins_of(each.criteria) for each in content.results}
+    _, case_id, margin = min(shares, key=lambda share: share[:2])
+    return case_id, margin
 
 
 class Matrix(NamedTuple):
@@ -162,15 +117,51 @@ class Matrix(NamedTuple):
 
 def matrix_of(margins: Mapping[str, Margins]) -> Matrix:
     """Return the matrix of a run; of more criteria than have room those that some case misses stay first."""
-    rows = {name: {each.verdict.id: each for each in _all_of(own)} for name, own in margins.items()}
+    rows = {
+        case_id: {margin.verdict.id: margin for margin in (*of_case.judged, *of_case.not_applicable)}
+        for case_id, of_case in margins.items()
+    }
     known = dict.fromkeys(criterion for row in rows.values() for criterion in row)
-    missed = {each.verdict.id for row in rows.values() for each in row.values() if each.kind == "fail"}
-    kept = set(sorted(known, key=lambda criterion: criterion not in missed)[:_MOST_CRITERIA])
-    criteria = sorted(kept)
-    cells = {name: [row.get(criterion) for criterion in criteria] for name, row in rows.items()}
+    missed = {margin.verdict.id for row in rows.values() for margin in row.values() if margin.kind == "fail"}
+    criteria = sorted(sorted(known, key=lambda criterion: criterion not in missed)[:_MOST_CRITERIA])
+    cells = {case_id: [row.get(criterion) for criterion in criteria] for case_id, row in rows.items()}
     return Matrix(criteria, cells, len(known) - len(criteria))
 
 
-def _all_of(margins: Margins) -> Iterator[Margin]:
-    yield from margins.judged
-    yield from margins.not_applicable
+_WITH_VALUE: Final = ("--set", "--seed", "--repeat", "--trust")
+"""Options of `uictest run` that change what a case is, or which files it may read."""
+_FLAGS: Final = ("--in-process", "--real-time")
+
+
+def rerun_commands(content: RunContent) -> dict[str, str]:
+    """Return the command for every case, by id. A stop of a series cannot run without the series."""
+    manifest = content.manifest
+    commands = {result.id: rerun_command(manifest, result.scenario, result.id) for result in content.results}
+    for series in content.series:
+        command = rerun_command(manifest, series.file, series.id)
+        commands |= {stop.case.id: command for stop in series.cases}
+    return commands
+
+
+def rerun_command(manifest: RunManifest, file: str, name: str) -> str:
+    """Return the command that runs one case or series again; empty where there is none.
+
+    It keeps the options of the run that change a case. Recorded stops are not run, and what a program changed
+    while it loaded cases is not known.
+
+    Args:
+        manifest: of the run.
+        file: of the scenario or series.
+        name: id of the case or series.
+
+    """
+    if tuple(manifest.command[1:2]) != ("run",) or CASES_IN_PYTHON in manifest.command:
+        return ""
+    options: list[str] = []
+    words = iter(manifest.command[2:])
+    for word in words:
+        if word in _WITH_VALUE:
+            options += [word, next(words, "")]
+        elif word in _FLAGS or word.startswith(tuple(f"{option}=" for option in _WITH_VALUE)):
+            options.append(word)
+    return printable(f"uictest run {argument(file)} {shlex.join([*options, '-k', name])}")

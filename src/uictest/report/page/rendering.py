@@ -1,10 +1,9 @@
-"""Render templates to pages: texts are escaped, scripts are permitted by their digest."""
+"""Render templates to pages: texts are escaped, links encoded, scripts permitted by their digest."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
-import re
 from collections.abc import Callable
 from functools import cache
 from importlib import resources
@@ -12,6 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
+from urllib.parse import quote
 
 from jinja2 import DictLoader, Environment, StrictUndefined
 from jinja2.bccache import Bucket, BytecodeCache, bc_magic
@@ -19,28 +19,59 @@ from markupsafe import Markup
 
 from uictest.core import user_cache
 from uictest.core.document import Tone
-from uictest.report.car_wording import car_facts, implausible_sentences
-from uictest.report.case_words import tone
-from uictest.report.counts import counted, counted_in
-from uictest.report.escaping import printable
-from uictest.report.firmness_sentences import firmness_sentences, firmness_table
-from uictest.report.part_wording import (
+from uictest.report.case_conditions import (
     base_word,
+    car_facts,
     changed_parameters,
     domain_sentences,
+    implausible_sentences,
     notices,
     part_sentences,
     slide_speed,
+    train_facts,
+    train_text,
 )
-from uictest.report.repeat_wording import any_repeated, stops_text
-from uictest.report.train_wording import train_facts, train_text
-from uictest.report.verdict_sentences import (
-    listed,
-    number,
-    reading_sentences,
-    reading_sources,
-    statement_sentence,
-)
+from uictest.report.robustness import any_repeated, firmness_sentences, stops_text, strongest_numbers_table
+from uictest.report.verdict_sentences import reading_sentences, reading_sources, statement_sentence
+from uictest.report.words import counted, counted_in, listed, number, printable, tone
+
+
+def case_anchor(case_id: str) -> str:
+    """Return the `id` of the element that shows a case, e.g. `case-slip-120[friction=0.09]`."""
+    return f"case-{printable(case_id)}"
+
+
+def series_anchor(series_id: str) -> str:
+    """Return the `id` of the element that shows a series, e.g. `series-acceptance`."""
+    return f"series-{printable(series_id)}"
+
+
+def fragment(anchor: str) -> str:
+    """Return an anchor as it stands behind the `#` of a link: percent-encoded."""
+    return quote(anchor, safe="")
+
+
+def case_fragment(case_id: str) -> str:
+    """Return what stands behind the `#` of a link to a case."""
+    return fragment(case_anchor(case_id))
+
+
+def series_fragment(series_id: str) -> str:
+    """Return what stands behind the `#` of a link to a series."""
+    return fragment(series_anchor(series_id))
+
+
+def may_replace(path: Path, mark: str) -> bool:
+    """Return whether a page may be written here: there is none yet, or one with this mark.
+
+    A template writes the mark as the attribute `data-document`. Raises OSError.
+    """
+    if path.is_symlink():
+        return False
+    if not path.exists():
+        return True
+    return path.is_file() and f'data-document="{mark}"'.encode() in path.read_bytes()
+
 
 _UPLOT: Final = MappingProxyType(
     {
@@ -71,45 +102,14 @@ def uplot() -> tuple[str, ...]:
     return tuple(file.decode("utf-8").replace("\r\n", "\n") for file in files.values())
 
 
-def script_digest(script: str) -> str:
-    """Return the SHA-256 of a script in Base64."""
-    return base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
-
-
-_SCRIPTS = (
-    "elements",
-    "verdict_table",
-    "packed_lines",
-    "appearance",
-    "values",
-    "viewer",
-    "marks",
-    "across",
-    "panels",
-    "loops",
-    "csv",
-    "readout",
-    "moments",
-    "stops",
-    "comparison",
-    "laid_over",
-    "copying",
-    "anchors",
+_SCRIPTS: Final = (
+    *("elements", "verdict_table", "samples", "appearance", "viewer", "marks", "across", "panels"),
+    *("loops", "readout", "moments", "stops", "comparison", "laid_over", "links"),
 )
 """Parts of the script of a page, in the order in which they run; they share one scope."""
-
-_STYLES = (
-    "base",
-    "tables",
-    "verdicts",
-    "sweep",
-    "stops",
-    "drawings",
-    "laid_over",
-    "runs",
-    "studies",
-    "narrow",
-    "print",
+_STYLES: Final = (
+    *("base", "tables", "verdicts", "sweep", "stops", "drawings", "laid_over", "runs", "studies"),
+    *("narrow", "print"),
 )
 """Parts of the style sheet; those for narrow windows and for paper change what stands before them."""
 
@@ -120,19 +120,11 @@ def badge_tone(word: str) -> Tone:
 
 
 _WORDS: Final[tuple[Callable[..., Any], ...]] = (
-    *(
-        badge_tone,
-        base_word,
-        changed_parameters,
-        notices,
-        domain_sentences,
-        part_sentences,
-        slide_speed,
-    ),
-    *(car_facts, implausible_sentences),
-    *(counted, counted_in, listed, number, reading_sentences, reading_sources, statement_sentence, tone),
-    *(any_repeated, stops_text),
-    *(firmness_sentences, firmness_table, train_facts, train_text),
+    *(badge_tone, tone, counted, counted_in, listed, number),
+    *(base_word, changed_parameters, notices, domain_sentences, part_sentences, slide_speed),
+    *(car_facts, implausible_sentences, train_facts, train_text),
+    *(reading_sentences, reading_sources, statement_sentence),
+    *(any_repeated, stops_text, firmness_sentences, strongest_numbers_table),
 )
 """What every template can put results into words by."""
 
@@ -147,41 +139,24 @@ def render(template: str, *, with_plots: bool, running_head: str = "", **context
         context: what the template is filled in with.
 
     """
-    page, (plotting, style) = _page_script(), (uplot() if with_plots else ()) or ("", "")
+    plotting, plot_style = (uplot() if with_plots else ()) or ("", "")
+    scripts = [script for script in (plotting, _page_script()) if script]
+    digests = (base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts)
+    permitted = " ".join(f"'sha256-{digest}'" for digest in digests)
+    policy = (
+        f"default-src 'none'; script-src {permitted}; style-src 'unsafe-inline'; img-src data: blob:; "
+        "base-uri 'none'; form-action 'none'"
+    )
     return (
         _environment()
         .get_template(template)
         .render(
-            style=Markup(style + _page_style() + _running_head(running_head)),
-            script=Markup(page),
+            style=Markup(plot_style + _page_style() + _running_head(running_head)),
+            script=Markup(_page_script()),
             plotting=Markup(plotting),
-            policy=_policy(*(script_digest(each) for each in (plotting, page) if each)),
+            policy=policy,
             **context,
         )
-    )
-
-
-_REFERENCE: Final = re.compile(r'{% (?:extends|import|include|from) "([^"]+)"')
-"""What names another template in a template."""
-
-
-def load_template(name: str) -> None:
-    """Load a template and all that it refers to, and what all pages share: to render it takes less then."""
-    for part in (uplot, _page_script, _page_style):
-        part()
-    names = [name]
-    for each in names:
-        _environment().get_template(each)
-        named = dict.fromkeys(_REFERENCE.findall(_templates()[each]))
-        names += [other for other in named if other not in names]
-
-
-def _policy(*digests: str) -> str:
-    """Return the content security policy: the scripts of these digests and no other, no network at all."""
-    scripts = " ".join(f"'sha256-{each}'" for each in digests)
-    return (
-        f"default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
-        "base-uri 'none'; form-action 'none'"
     )
 
 
@@ -229,8 +204,8 @@ def _page_style() -> str:
 
 def _running_head(text: str) -> str:
     """Return the style of the head of printed pages; every character that could end the text is escaped."""
-    shown = " · ".join(filter(None, ("uictest", printable(text))))
-    escaped = "".join(each if each.isalnum() else f"\\{ord(each):x} " for each in shown)
+    shown = f"uictest · {printable(text)}" if text else "uictest"
+    escaped = "".join(letter if letter.isalnum() else f"\\{ord(letter):x} " for letter in shown)
     return f'@page {{ @top-left {{ content: "{escaped}"; }} }}\n'
 
 
@@ -243,14 +218,13 @@ class TemplateCache(BytecodeCache):
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """Fill the bucket of a template if its code is there."""
-        code = user_cache.read("template", _inputs(bucket))
+        code = user_cache.read("template", self._inputs(bucket))
         if code is not None:
             bucket.bytecode_from_string(code)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         """Keep the code of a template."""
-        user_cache.write("template", _inputs(bucket), bucket.bytecode_to_string())
+        user_cache.write("template", self._inputs(bucket), bucket.bytecode_to_string())
 
-
-def _inputs(bucket: Bucket) -> bytes:
-    return bc_magic + f"{bucket.key} {bucket.checksum}".encode()
+    def _inputs(self, bucket: Bucket) -> bytes:
+        return bc_magic + f"{bucket.key} {bucket.checksum}".encode()

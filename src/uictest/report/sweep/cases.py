@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -10,19 +10,16 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.document import Cell
 from uictest.core.measures import column_unit
 from uictest.core.units import SIZES
 from uictest.report.sweep import SUMMARY
 from uictest.report.sweep.result import OutcomeCount, SweepResult
-from uictest.report.sweep.values import DrawnInterval
-from uictest.report.workbook import Rows
+from uictest.report.sweep.values import DrawnInterval, interval_indices
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 _AT_ONCE: Final = 65_536
-_ROWS_AT_ONCE: Final = 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,31 +68,23 @@ class SummaryRows:
             for batch in summary.iter_batches(_AT_ONCE, columns=list(columns)):
                 yield pa.Table.from_batches([batch])
 
-    def table(self) -> Rows:
-        """Return all columns, and the rows as they are read. Raises OSError, ValueError where none can be."""
-        import pyarrow.parquet as pq
-
-        with pq.ParquetFile(self.folder / SUMMARY) as summary:
-            return Rows(summary.schema_arrow.names, self._rows(), summary.metadata.num_rows, SUMMARY)
-
-    def _rows(self) -> Iterator[dict[str, Cell]]:
-        import pyarrow.parquet as pq
-
-        with pq.ParquetFile(self.folder / SUMMARY) as summary:
-            for batch in summary.iter_batches(_ROWS_AT_ONCE):
-                yield from batch.to_pylist()
-
-    def columns_of(self, keys: Sequence[str], measures: Sequence[ReportedColumns]) -> list[str]:
-        """Return the columns of parameters, verdicts and measures."""
+    def columns_of(
+        self, rates: Mapping[str, Sequence[OutcomeCount]], measures: Sequence[ReportedColumns]
+    ) -> list[str]:
+        """Return the columns of verdicts, measures and the parameters that `rates` counts by their values."""
+        columns = [
+            _number_column(key) if isinstance(counts[0].value, DrawnInterval) else _text_column(key)
+            for key, counts in rates.items()
+        ]
         of_measures = (column for measure in measures for column in measure.columns)
-        return list(dict.fromkeys([*map(_text_column, keys), "outcome", "met", *of_measures]))
+        return list(dict.fromkeys([*columns, "outcome", "met", *of_measures]))
 
     def bins(self, table: pa.Table, key: str, counts: Sequence[OutcomeCount]) -> NDArray[np.int64]:
         """Return which of the values that a parameter is counted by each row has."""
         values = [count.value for count in counts]
-        if isinstance(values[0], DrawnInterval):
-            inner = [value.low for value in values[1:] if isinstance(value, DrawnInterval)]
-            return np.searchsorted(inner, self.numbers(table, key), side="right").astype(np.int64)
+        intervals = [value for value in values if isinstance(value, DrawnInterval)]
+        if intervals:
+            return interval_indices(intervals, table.column(_number_column(key)).to_numpy())
         import pyarrow as pa
         import pyarrow.compute as pc
 
@@ -106,14 +95,6 @@ class SummaryRows:
         bins: NDArray[np.int64] = places.to_numpy().astype(np.int64)
         return bins
 
-    def numbers(self, table: pa.Table, key: str) -> NDArray[np.float64]:
-        """Return the numbers of a parameter in the unit in which they are written."""
-        import pyarrow.compute as pc
-
-        texts = pc.replace_substring_regex(table.column(_text_column(key)), " .*$", "")
-        numbers: NDArray[np.float64] = pc.cast(texts, "double").to_numpy()
-        return numbers
-
     def verdicts(self, table: pa.Table) -> tuple[NDArray[np.bool_], NDArray[Any]]:
         """Return of each row whether it met its expectation, and its outcome."""
         met, outcomes = (table.column(name).to_numpy() for name in ("met", "outcome"))
@@ -122,6 +103,10 @@ class SummaryRows:
 
 def _text_column(key: str) -> str:
     return f"parameters.{key}"
+
+
+def _number_column(key: str) -> str:
+    return f"values.{key}"
 
 
 def _numbers(table: pa.Table, name: str) -> NDArray[np.float64]:

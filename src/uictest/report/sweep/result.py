@@ -1,19 +1,88 @@
-"""The result of a sweep, as `sweep.json` holds it: counts, maps, trends, sensitivities, frontier."""
+"""The result of a sweep, as `results.json` holds it: counts, maps, trends, sensitivities, frontier."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import ConfigDict, Field, TypeAdapter
 
-from uictest.core import envelope
+from uictest.core import envelope, files
 from uictest.judging import evaluation
-from uictest.judging.evaluation import NamedParts, Number, WrittenCaseResult, required
+from uictest.judging.evaluation import Deviation, NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
-from uictest.report.sweep.limits import SurveyStep, SweepDomain
+from uictest.report.formats import WITH_TEST_PROPERTIES
+from uictest.report.run_folder import RESULTS, read_traces, require_names
 from uictest.report.sweep.values import SweptValue, Written
+from uictest.report.traces.trace import PlotTrace
+
+
+@dataclass(frozen=True, slots=True)
+class OutsideCount:
+    """The cases beyond what was validated in one condition; of numbers, `found` spans all of theirs."""
+
+    cases: int
+    deviation: Deviation
+
+
+@dataclass(frozen=True, slots=True)
+class SweepDomain:
+    """How many cases lie outside of the domain of a validation.
+
+    Args:
+        validation: its name.
+        sha256: of its file.
+        outside: number of cases with any condition beyond it.
+        conditions: those conditions, the one of most cases first; a case may be in several.
+    """
+
+    validation: str
+    sha256: str
+    outside: int
+    conditions: tuple[OutsideCount, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyBias:
+    """What the survey step moves a measure by, as shares of its mean.
+
+    Args:
+        measure: its name.
+        bias: of the mean over many stops, at most: the farther end of its 95 % interval, in the shipped case
+            in which that is largest.
+        case: this case.
+        of_single_stops: what 95 % of the single stops of a shipped case differ by at most, in the case in
+            which that is largest. Where WSP cycling makes stops differ anyway, this is mostly their scatter.
+    """
+
+    measure: str
+    bias: float
+    case: str
+    of_single_stops: float
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyStep:
+    """The steps of a survey.
+
+    Args:
+        time_step: that the cases were simulated in, as written.
+        regular_step: that those were repeated in of which a value lay within its bias of a limit, and those
+            that the survey step could not simulate or decide, as written.
+        repeated: number of these cases.
+        biases: of the measures that are judged or mapped.
+        unknown: names of those whose bias is not known: every case in which one is judged is repeated.
+    """
+
+    time_step: str
+    regular_step: str
+    repeated: int
+    biases: tuple[SurveyBias, ...]
+    unknown: tuple[str, ...] = ()
+
 
 MET: Final = "met"
 """Name of the map of cases that met their expectation; the other maps have names of measures."""
@@ -75,7 +144,6 @@ class SweepMap:
         met: number of cases that met their expectation.
         cases: number of cases.
         known: number of cases that have the measure; None where the map was read from a file.
-
     """
 
     measure: str
@@ -204,7 +272,6 @@ class SweepResult:
         domain_of_validity: how many cases lie outside of what was validated; None where nobody asked.
         survey: the steps of a survey, None where all cases were simulated in their own.
         notes: sentences that every report shows.
-
     """
 
     __pydantic_config__: ClassVar = ConfigDict(defer_build=True)
@@ -245,15 +312,77 @@ _RESULT: Final = TypeAdapter(SweepResult)
 def sweep_document(result: SweepResult) -> dict[str, Any]:
     """Return the JSON form of a result; parts are there once, by id."""
     form: dict[str, Any] = evaluation.to_json_form(_RESULT, result)
-    names = list(form)
-    place = names.index("worst")
     of_cases = (case.parts for case in (*result.worst, *result.nominal))
-    parts = evaluation.parts_document([result.base, *of_cases])
-    head, tail = ({name: form[name] for name in some} for some in (names[:place], names[place:]))
-    return {**envelope.head(envelope.RESULT, "sweep"), **head, "parts": parts, **tail}
+    document: dict[str, Any] = dict(envelope.head(envelope.RESULT, "sweep"))
+    for name, value in form.items():
+        if name == "worst":
+            document["parts"] = evaluation.parts_document([result.base, *of_cases])
+        document[name] = value
+    return document
 
 
 def read_sweep_document(content: Mapping[str, Any]) -> SweepResult:
     """Return the result in a document. Raises ValueError where it is none."""
     envelope.require(content, envelope.RESULT, "sweep")
     return evaluation.from_json_form(_RESULT, content, context=evaluation.parts_of(content))
+
+
+@dataclass(frozen=True, slots=True)
+class SweepContent:
+    """What a report of a sweep shows.
+
+    Args:
+        folder: of the sweep; it holds the tables.
+        result: what `results.json` holds.
+        manifest: where the results come from.
+        traces: what there is to draw of the worst cases, by id.
+    """
+
+    folder: Path
+    result: SweepResult
+    manifest: Mapping[str, Any]
+    traces: Mapping[str, PlotTrace] = field(default_factory=dict)
+
+
+def read_sweep(folder: Path, *, traces: bool = False) -> SweepContent:
+    """Return the sweep in a folder; with `traces`, what there is to draw of its worst cases, too.
+
+    Raises OSError, and ValueError where results.json, manifest.json or a recording is not what it should be.
+    """
+    path = folder / RESULTS
+    document = _read_object(path, "the result")
+    try:
+        result = read_sweep_document(document)
+        require_names(case.id for case in result.worst)
+    except ValueError as error:
+        raise ValueError(f"{path}: not the result of a sweep: {error}") from error
+    drawn = read_traces(folder, result.worst) if traces else {}
+    return SweepContent(folder, result, _read_object(folder / "manifest.json", "the manifest"), drawn)
+
+
+def _read_object(path: Path, what: str) -> dict[str, Any]:
+    try:
+        content = json.loads(path.read_bytes())
+        if not isinstance(content, dict):
+            raise ValueError("expected an object")
+    except (ValueError, RecursionError) as error:  # RecursionError: nested deeper than JSON is read
+        raise ValueError(f"{path}: not {what} of a sweep: {error}") from error
+    return content
+
+
+_OF_ONE_RESULT: Final = ("tables/*.csv", WITH_TEST_PROPERTIES, "index.html", "report.xlsx", "summary.md")
+"""Files that not every result has, or that not every run writes."""
+
+
+def write_sweep_result(folder: Path, result: SweepResult) -> str:
+    """Write `results.json` and return its text.
+
+    What an earlier, other result of the sweep left in the folder is removed: beside the new one it would lie.
+    Raises OSError.
+    """
+    document = evaluation.to_json(sweep_document(result))
+    path = folder / RESULTS
+    if path.is_file() and path.read_text("utf-8") != document:
+        files.remove_listed(folder, *_OF_ONE_RESULT)
+    files.write(folder, RESULTS, document)
+    return document

@@ -8,19 +8,29 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
-from uictest.core.measures import column_unit
 from uictest.judging import evaluation
-from uictest.report.case_words import outcome_word, result_word
-from uictest.report.counts import counted
-from uictest.report.escaping import argument, printable
-from uictest.report.github import annotation
-from uictest.report.junit import suite_properties, test_properties
-from uictest.report.measure_heading import measure_heading
-from uictest.report.sweep.result import Circumstances, Flip, MissedCase, OutcomeCount, SweepResult
+from uictest.report.case_conditions import deviation_text
+from uictest.report.ci_server import annotation, program_properties, test_properties
+from uictest.report.sweep.result import (
+    Circumstances,
+    Flip,
+    OutcomeCount,
+    SurveyStep,
+    SweepDomain,
+    SweepResult,
+)
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
 from uictest.report.verdict_sentences import counts_text, explanation
+from uictest.report.words import argument, counted, outcome_word, percent, printable, result_word
 
-_MOST_LISTED = 3  # values that are listed rather than counted
+_MOST_LISTED: Final = 3
+"""Values that are listed rather than counted; chosen."""
+_MOST_CONDITIONS: Final = 6
+"""Conditions outside of what was validated that a note lists before the rest is counted; chosen."""
+_LEAST_BIAS: Final = 1e-4
+"""Share below which biases of the survey step are only counted; chosen."""
+MOST_ANNOTATED: Final = 10
+"""GitHub shows ten annotations of one kind per step."""
 
 
 def sweep_tally(result: SweepResult) -> str:
@@ -53,34 +63,13 @@ def swept_words(values: Sequence[SweptValue]) -> str:
 
 def share_words(met: int, cases: int) -> str:
     """Return the share met in percent; `100` and `0` only where no case is an exception."""
-    if not cases:
-        return "–"  # noqa: RUF001 - a dash on paper
-    return str(_rounded_share(100, met, cases))
+    return str(_rounded_share(100, met, cases)) if cases else "-"
 
 
 def bar(met: int, cases: int) -> str:
     """Return the share met as ten blocks, full and empty; all or none only where no case is an exception."""
-    if not cases:
-        return ""
-    full = _rounded_share(10, met, cases)
-    return full * "█" + (10 - full) * "░"
-
-
-def circumstances_words(circumstances: Circumstances) -> str:
-    """Return the values of the other parameters at which something was found."""
-    return ", ".join(f"{key} = {value.text}" for key, value in circumstances.items()) or "all cases"
-
-
-def measure_words(column: str) -> str:
-    """Return the name of a column of measures for readers, e.g. `braking distance, m`."""
-    words, unit = measure_heading(column).words, column_unit(column)
-    return words if unit == "1" else f"{words}, {unit}"
-
-
-def flip_words(flip: Flip) -> str:
-    """Return where a verdict flips, e.g. `met up to 0.10, not met from 0.11`."""
-    before, after = ("met", "not met") if flip.met_at_low else ("not met", "met")
-    return f"{before} up to {flip.low.text}, {after} from {flip.high.text}"
+    full = _rounded_share(10, met, cases) if cases else 0
+    return full * "█" + (10 - full) * "░" if cases else ""
 
 
 def _rounded_share(whole: int, met: int, cases: int) -> int:
@@ -89,9 +78,31 @@ def _rounded_share(whole: int, met: int, cases: int) -> int:
     return share if met in (0, cases) else min(max(share, 1), whole - 1)
 
 
+def circumstances_words(circumstances: Circumstances) -> str:
+    """Return the values of the other parameters at which something was found."""
+    return ", ".join(f"{key} = {value.text}" for key, value in circumstances.items()) or "all cases"
+
+
+def flip_words(flip: Flip) -> str:
+    """Return where a verdict flips, e.g. `met up to 0.10, not met from 0.11`."""
+    before, after = ("met", "not met") if flip.met_at_low else ("not met", "met")
+    return f"{before} up to {flip.low.text}, {after} from {flip.high.text}"
+
+
 @dataclass(frozen=True, slots=True)
 class NotableCase:
-    """A case as one line of a report; `why` is empty where it was met."""
+    """A case as one line of a report.
+
+    Args:
+        id: of the case.
+        met: whether it met its expectation.
+        word: of `CASE_WORDS`.
+        outcome: of the case.
+        why: empty where it was met.
+        distance: braking distance, m.
+        margin: the narrowest margin over its bound, %.
+        criterion: that has this margin.
+    """
 
     id: str
     met: bool
@@ -99,61 +110,56 @@ class NotableCase:
     outcome: str
     why: str
     distance: float | None = None
-    """Braking distance, m."""
     margin: float | None = None
-    """Narrowest margin over its bound, %, and the criterion that has it."""
     criterion: str = ""
 
 
 def notable_cases(result: SweepResult) -> list[NotableCase]:
     """Return the worst cases and the first missed ones, each once, missed cases first."""
-    worst = [_from_result(case) for case in result.worst]
-    known = {case.id for case in worst}
-    others = [_from_missed(case) for case in result.missed if case.id not in known]
-    return sorted([*worst, *others], key=lambda case: case.met)
-
-
-def _from_result(result: evaluation.CaseResult) -> NotableCase:
-    why = "" if result.met else "; ".join(explanation(result))
-    distance = (result.measures or {}).get("braking_distance_m")
-    margin, criterion = evaluation.narrowest_margin(result)
-    share = None if margin is None else 100.0 * margin
-    word = result_word(result)
-    return NotableCase(result.id, result.met, word, result.outcome, why, distance, share, criterion)
-
-
-def _from_missed(case: MissedCase) -> NotableCase:
-    """Return a case of which only outcome and reason are known."""
-    why = printable(": ".join(text for text in (f"got {case.outcome}", case.reason) if text))
-    return NotableCase(case.id, False, outcome_word(case.outcome, met=False), case.outcome, why)
+    cases = []
+    for case in result.worst:
+        margin, criterion = evaluation.narrowest_margin(case)
+        cases.append(
+            NotableCase(
+                *(case.id, case.met, result_word(case), case.outcome),
+                why="" if case.met else "; ".join(explanation(case)),
+                distance=(case.measures or {}).get("braking_distance_m"),
+                margin=None if margin is None else 100.0 * margin,
+                criterion=criterion,
+            )
+        )
+    known = {case.id for case in result.worst}
+    for missed in result.missed:
+        if missed.id not in known:
+            why = printable(": ".join(filter(None, (f"got {missed.outcome}", missed.reason))))
+            word = outcome_word(missed.outcome, met=False)
+            cases.append(NotableCase(missed.id, False, word, missed.outcome, why))
+    return sorted(cases, key=lambda case: case.met)
 
 
 def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False) -> Suite:
     """Return the counts of a sweep as testcases; `file` is the sweep file as shown to users."""
     parameter, counts = next(iter(result.rates.items()))
-    own = test_properties(result.test_case, result.requirements) if with_properties else {}
-    testcases = [
-        Testcase(
-            class_name(file),
-            f"{result.name}[{parameter}={count.value.label}]",
-            *_outcome(result, count),
-            properties=own,
-        )
-        for count in counts
-    ]
-    about = suite_properties(evaluation.program_in(result.base), (), result.requirements)
-    return Suite(result.name, testcases, properties=about)
+    named = test_properties(result.test_case, result.requirements) if with_properties else {}
+    testcases = []
+    for count in counts:
+        status = _status(count)
+        lines = [] if status == "passed" else list(_explanation(result, count))
+        name = f"{result.name}[{parameter}={count.value.label}]"
+        testcases.append(Testcase(class_name(file), name, status, lines, properties=named))
+    program = evaluation.program_in(result.base)
+    controller = program_properties(program) if program is not None else {}
+    return Suite(
+        result.name, testcases, properties=controller | {"requirements": ",".join(result.requirements)}
+    )
 
 
-def _outcome(result: SweepResult, count: OutcomeCount) -> tuple[TestcaseStatus, list[str]]:
-    status: TestcaseStatus = "passed"
+def _status(count: OutcomeCount) -> TestcaseStatus:
     if count.cases == 0 or count.outcomes["skipped"] == count.cases == count.met:
-        status = "skipped"
-    elif count.outcomes["error"]:
-        status = "error"
-    elif count.met < count.cases:
-        status = "failure"
-    return status, [] if status == "passed" else list(_explanation(result, count))
+        return "skipped"
+    if count.outcomes["error"]:
+        return "error"
+    return "failure" if count.met < count.cases else "passed"
 
 
 def _explanation(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
@@ -164,14 +170,47 @@ def _explanation(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
         yield from (f"{case.id}: {case.outcome}, {case.reason}" for case in result.missed)
 
 
-MOST_ANNOTATED: Final = 10
-"""GitHub shows ten annotations of one kind per step."""
-
-
 def sweep_annotations(result: SweepResult, file: str) -> Iterator[str]:
     """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
     missed = [case for case in notable_cases(result) if not case.met]
     for case in missed[:MOST_ANNOTATED]:
         yield annotation(file, f"{case.word} {case.id}", case.why)
-    title = f"uictest sweep {result.name}"
-    yield annotation(file, title, sweep_tally(result), level="notice")
+    yield annotation(file, f"uictest sweep {result.name}", sweep_tally(result), level="notice")
+
+
+def domain_notes(domain: SweepDomain | None, cases: int) -> Iterator[str]:
+    """Yield how many of `cases` lie outside of what was validated, and in what; else nothing."""
+    if domain is None:
+        return
+    among = f"{domain.outside} of {counted(cases, 'case')} outside of what {domain.validation} validated"
+    first = domain.conditions[:_MOST_CONDITIONS]
+    shown = [f"{deviation_text(condition.deviation)} in {condition.cases}" for condition in first]
+    more = len(domain.conditions) - len(shown)
+    rest = f"; {counted(more, 'more condition')} in results.json" if more else ""
+    yield f"{among}: {'; '.join(shown)}{rest}" if shown else among
+
+
+def survey_notes(survey: SurveyStep | None, cases: int) -> Iterator[str]:
+    """Yield how many cases were repeated in regular steps, and the bias of each measure."""
+    if survey is None:
+        return
+    begin = f"survey in steps of {survey.time_step}, which"
+    if survey.repeated:
+        repeated = f"these were repeated in steps of {survey.regular_step}"
+        yield f"{begin} could not settle {survey.repeated} of {counted(cases, 'case')}: {repeated}"
+    else:
+        yield f"{begin} settled all of {counted(cases, 'case')}"
+    if survey.unknown:
+        yield f"bias of the survey step: not known of {', '.join(survey.unknown)}"
+    noted = [bias for bias in survey.biases if bias.bias >= _LEAST_BIAS]
+    for bias in noted:
+        on_average = f"at most {_percent(bias.bias)} on average ({bias.case})"
+        of_stops = f"{_percent(bias.of_single_stops)} in 95 % of single stops"
+        yield f"bias of the survey step: {bias.measure} {on_average}, {of_stops}"
+    if others := len(survey.biases) - len(noted):
+        below = f"below {_percent(_LEAST_BIAS)} in {counted(others, 'other measure')} judged or mapped"
+        yield f"bias of the survey step: {below}"
+
+
+def _percent(share: float) -> str:
+    return percent(share, 2) if share < 1.0 else f"{100.0 * share:.0f} %"

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
-from pydantic import PlainSerializer, PlainValidator
+from pydantic import ConfigDict, PlainSerializer, PlainValidator, TypeAdapter
 
-_TO = " .. "
-"""Between the ends of an interval."""
+from uictest.core.units import in_unit, to_12_digits
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +45,8 @@ class WrittenValue:
 class DrawnInterval:
     """An interval of drawn numbers; both ends in `unit`, which is empty for a pure number."""
 
+    __pydantic_config__: ClassVar = ConfigDict(extra="forbid", defer_build=True)
+
     low: float
     high: float
     unit: str
@@ -48,7 +54,7 @@ class DrawnInterval:
     @property
     def label(self) -> str:
         """The interval as shown to users, e.g. `60 .. 70 %`."""
-        return f"{self.low_text}{_TO}{self.high_text}"
+        return f"{self.low_text} .. {self.high_text}"
 
     @property
     def number(self) -> float:
@@ -66,32 +72,39 @@ class DrawnInterval:
         return f"{self.high:.10g} {self.unit}".rstrip()
 
 
-def _read_value(text: object) -> WrittenValue | DrawnInterval:
-    """Return the value with this JSON form: that of an interval is its label."""
-    if not isinstance(text, str):
-        raise ValueError("Input should be the text of a value")
-    low, is_interval, high = text.partition(_TO)
-    try:
-        end, _, unit = high.partition(" ")
-        return DrawnInterval(float(low), float(end), unit) if is_interval else WrittenValue(text)
-    except ValueError:
-        return WrittenValue(text)
+def interval_indices(intervals: Sequence[DrawnInterval], numbers: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return in which of neighbouring intervals each of some numbers, in SI units, lies.
+
+    A number at a boundary lies in the upper one: what converting it to the unit added to it does not count.
+    """
+    import numpy as np  # checking a sweep and reading its result do without
+
+    unit = intervals[0].unit or "1"
+    drawn = [to_12_digits(in_unit(number, unit)) for number in numbers.tolist()]
+    return np.searchsorted([interval.low for interval in intervals[1:]], drawn, side="right")
 
 
-def _read_written_value(text: object) -> WrittenValue:
+def _value_of(content: object) -> WrittenValue | DrawnInterval:
+    """Return the value with this JSON form."""
+    if isinstance(content, str):
+        return WrittenValue(content)
+    return _INTERVAL.validate_python(content)
+
+
+def _json_form(value: WrittenValue | DrawnInterval) -> object:
+    return value.text if isinstance(value, WrittenValue) else dataclasses.asdict(value)
+
+
+def _written_value(text: object) -> WrittenValue:
     if not isinstance(text, str):
         raise ValueError("Input should be the text of a value")
     return WrittenValue(text)
 
 
-def _label(value: WrittenValue | DrawnInterval) -> str:
-    return value.label
-
-
-SweptValue = Annotated[WrittenValue | DrawnInterval, PlainValidator(_read_value), PlainSerializer(_label)]
-"""A value of a swept parameter; its JSON form is its label."""
-
-Written = Annotated[WrittenValue, PlainValidator(_read_written_value), PlainSerializer(_label)]
+_INTERVAL: Final = TypeAdapter(DrawnInterval)
+SweptValue = Annotated[WrittenValue | DrawnInterval, PlainValidator(_value_of), PlainSerializer(_json_form)]
+"""A value of a swept parameter; in JSON its text, or the `low`, `high` and `unit` of an interval."""
+Written = Annotated[WrittenValue, PlainValidator(_written_value), PlainSerializer(_json_form)]
 """A value as written; its JSON form is the text."""
 
 
@@ -99,5 +112,5 @@ def range_label(values: Sequence[SweptValue]) -> str:
     """Return the label of neighbouring values, e.g. `0.160 .. 0.165 (2 values)` or `60 .. 80 %`."""
     first, last = values[0], values[-1]
     if isinstance(first, DrawnInterval) and isinstance(last, DrawnInterval):
-        return f"{first.low_text}{_TO}{last.high_text}"
-    return first.label if len(values) == 1 else f"{first.label}{_TO}{last.label} ({len(values)} values)"
+        return f"{first.low_text} .. {last.high_text}"
+    return first.label if len(values) == 1 else f"{first.label} .. {last.label} ({len(values)} values)"

@@ -72,9 +72,7 @@ class _Changes(NamedTuple):
 
 
 def moments_of(
-    verdicts: Iterable[evaluation.Verdict],
-    record: Recording,
-    wheelsets: Sequence[Mapping[str, float]] = (),
+    verdicts: Iterable[evaluation.Verdict], record: Recording, wheelsets: Sequence[Mapping[str, float]] = ()
 ) -> dict[str, Moments]:
     """Return the moments of each criterion whose measure has any, by the id of the criterion.
 
@@ -94,8 +92,11 @@ def moments_of(
     if "speed" not in record.channels or not judged:
         return {}
     replay = _replay([verdict for verdict, _ in judged], record)
-    cells = {cell: None for verdict, measure in judged for cell in _cells(verdict, measure)}
-    changes = _changes(replay, list(cells))
+    cells = list(dict.fromkeys(cell for verdict, measure in judged for cell in _cells(verdict, measure)))
+    first = replay.numbers_at(cells)
+    noted = rig.noted_numbers(replay, cells)  # all samples pass
+    time = replay.samples.train[:, 0]
+    changes = {cell: _changes_of(first[j], noted[:, j], time) for j, cell in enumerate(cells)}
     if "sliding_time" in record.metadata:  # more exact than the samples
         replay.train.sliding_time = float(record.metadata["sliding_time"])
     return {
@@ -106,7 +107,7 @@ def moments_of(
 
 def _replay(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay:
     """Return the records of the stop at its first sample; definitions that no verdict has are unknown."""
-    stated = {each.name: each.value for verdict in verdicts for each in verdict.definitions}
+    stated = {name: value for verdict in verdicts for name, value in _definition(verdict).items()}
     unknown = dict.fromkeys(fields_of(MeasureDefinition), math.nan)
     demanded = record.channels.get("demanded_pressure", np.array([math.nan]))
     return Replay(
@@ -125,11 +126,11 @@ def _faults(record: Recording) -> Faults | None:
     begun = np.bitwise_or.accumulate(active)
 
     def of_wheelsets(bits: NDArray[np.int64], kinds: str = ".*") -> NDArray[np.float64]:
-        own = [
+        of_wheelset = [
             [1 << k for k, label in enumerate(labels.split(", ")) if re.fullmatch(rf"{kinds}-{n}", label)]
             for n in WHEELSETS
         ]
-        return np.stack([(bits & sum(each)) != 0 for each in own], axis=1).astype(np.float64)
+        return np.stack([(bits & sum(masks)) != 0 for masks in of_wheelset], axis=1).astype(np.float64)
 
     return (
         np.asarray(begun != 0, float),
@@ -144,21 +145,13 @@ def _cells(verdict: evaluation.Verdict, measure: Measure) -> list[Cell]:
     decided = measure.decided
     if decided is None or not decided.field:
         return []
-    place = None if decided.place is None else decided.place(_definition(verdict))
+    index = None if decided.index is None else decided.index(_definition(verdict))
     numbers = WHEELSETS if decided.field in fields_of(WheelsetMeasures) else (TRAIN,)
-    return [(decided.field, n, place) for n in numbers]
+    return [(decided.field, n, index) for n in numbers]
 
 
 def _definition(verdict: evaluation.Verdict) -> dict[str, float]:
-    return {each.name: each.value for each in verdict.definitions}
-
-
-def _changes(replay: Replay, cells: Sequence[Cell]) -> dict[Cell, _Changes]:
-    """Let the samples pass and return where the numbers of the records changed."""
-    first = replay.numbers_at(cells)
-    noted = rig.noted_numbers(replay, cells)
-    time = replay.samples.train[:, 0]
-    return {cell: _changes_of(first[j], noted[:, j], time) for j, cell in enumerate(cells)}
+    return {applied.name: applied.value for applied in verdict.definitions}
 
 
 def _changes_of(first: float, noted: NDArray[np.float64], time: NDArray[np.float64]) -> _Changes:
@@ -170,16 +163,13 @@ def _changes_of(first: float, noted: NDArray[np.float64], time: NDArray[np.float
     if not len(changes):
         return _Changes(first, float(time[0]), [])
     growths = known[(values > before) | np.isnan(before)]
-    grown = _joined(time[growths], time[growths + 1])
+    starts, ends = time[growths], time[growths + 1]
+    grown: list[Interval] = []
+    if len(growths):
+        # What begins where another interval ends is one with it.
+        breaks = np.flatnonzero(starts[1:] != ends[:-1])
+        grown = list(zip(starts[[0, *breaks + 1]].tolist(), ends[[*breaks, -1]].tolist(), strict=True))
     return _Changes(float(noted[changes[-1]]), float(time[changes[-1] + 1]), grown)
-
-
-def _joined(starts: NDArray[np.float64], ends: NDArray[np.float64]) -> list[Interval]:
-    """Return intervals in their order, as one where the next begins at the end of the one before."""
-    if not len(starts):
-        return []
-    breaks = np.flatnonzero(starts[1:] != ends[:-1])
-    return list(zip(starts[[0, *breaks + 1]].tolist(), ends[[*breaks, -1]].tolist(), strict=True))
 
 
 def _moments(
@@ -192,51 +182,50 @@ def _moments(
 ) -> Moments:
     decided, definition, time = measure.decided, _definition(verdict), record["time"]
     assert decided is not None
-    own = {
-        cell[1]: changes[cell]
-        for cell in _cells(verdict, measure)
-        if decided.among is None or decided.among(replay.wheelsets[cell[1] - 1])
-    }
     span = None if decided.span is None else decided.span(replay.train, definition)
     if decided.down_to:
         reached = np.flatnonzero(record["speed"] <= definition[decided.down_to])
         span = (float(time[0]), float(time[reached[0]])) if len(reached) else None
+    if span is not None and not all(map(math.isfinite, span)):
+        span = None
     intervals: dict[int, Sequence[Interval]] = {}
     extremes = {}
-    for n, each in own.items():
-        if decided.how in ("intervals", "longest") and each.grown:
-            intervals[n] = each.grown
-        elif decided.how == "outer" and each.grown:
-            intervals[n] = [(each.grown[0][1], float(time[-1]) if each.value else each.time)]
-        elif decided.how == "extreme" and math.isfinite(each.value):
-            row = int(np.searchsorted(time, each.time))
-            value = float(record[decided.channel][row]) if decided.channel else each.value
-            extremes[n] = each.time, in_unit(value, _UNITS[decided.plot])
-    known = span if span is not None and all(map(math.isfinite, span)) else None
-    return Moments(intervals, extremes, known, _deciding(verdict, measure, replay, intervals, wheelsets))
+    for cell in _cells(verdict, measure):
+        _, n, _ = cell
+        change = changes[cell]
+        if decided.among is not None and not decided.among(replay.wheelsets[n - 1]):
+            continue
+        if decided.how in ("intervals", "longest") and change.grown:
+            intervals[n] = change.grown
+        elif decided.how == "outer" and change.grown:
+            intervals[n] = [(change.grown[0][1], float(time[-1]) if change.value else change.time)]
+        elif decided.how == "extreme" and math.isfinite(change.value):
+            row = int(np.searchsorted(time, change.time))
+            value = float(record[decided.channel][row]) if decided.channel else change.value
+            extremes[n] = change.time, in_unit(value, _UNITS[decided.plot])
+    wheelset = None
+    if measure.of_wheelsets and verdict.value is not None:
+        wheelset = _wheelset_of(verdict.value, verdict, measure, replay, wheelsets)
+    elif decided.how == "longest":
+        wheelset = max(intervals, key=lambda n: max(map(duration, intervals[n])), default=None)
+    return Moments(intervals, extremes, span, wheelset)
 
 
-def _deciding(
+def _wheelset_of(
+    value: float,
     verdict: evaluation.Verdict,
     measure: Measure,
     replay: Replay,
-    intervals: Mapping[int, Sequence[Interval]],
     wheelsets: Sequence[Mapping[str, float]],
 ) -> int | None:
-    """Return the wheelset whose value is that of the criterion, or which has the longest interval of all."""
-    if measure.of_wheelsets and verdict.value is not None:
-        values = measure.read(replay.train, replay.wheelsets, _definition(verdict)).values
-        own = [in_unit(value, verdict.unit) for value in values]
-        column = measure.column
-        if column is not None and not any(map(math.isfinite, own)):
-            scale = SIZES[column.unit] / SIZES[verdict.unit]
-            own = [scale * each.get(column.name, math.nan) for each in wheelsets]
-        distances = {n: abs(value - verdict.value) for n, value in enumerate(own, start=1)}
-        known = {n: distance for n, distance in distances.items() if math.isfinite(distance)}
-        return min(known, key=known.__getitem__, default=None)
-    if measure.decided is not None and measure.decided.how == "longest":
-        return max(intervals, key=lambda n: max(map(duration, intervals[n])), default=None)
-    return None
+    """Return the wheelset that has the value of a criterion, in its unit; None where none has any."""
+    read = measure.read(replay.train, replay.wheelsets, _definition(verdict)).values
+    values = [in_unit(number, verdict.unit) for number in read]
+    if measure.column is not None and not any(map(math.isfinite, values)):
+        scale = SIZES[measure.column.unit] / SIZES[verdict.unit]
+        values = [scale * wheelset.get(measure.column.name, math.nan) for wheelset in wheelsets]
+    distances = {n: abs(number - value) for n, number in enumerate(values, 1) if math.isfinite(number)}
+    return min(distances, key=distances.__getitem__, default=None)
 
 
 def duration(interval: Interval) -> float:

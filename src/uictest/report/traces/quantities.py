@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, KINDS, PERCENT, SIZES
@@ -90,13 +89,7 @@ PANELS = (
     ),
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
     Panel("torque", "Dynamic brake torque of a wheelset", "N m", ("dynamic_torque",)),
-    Panel(
-        "reduction",
-        "Dynamic brake reduced by the WSP",
-        "%",
-        ("dynamic_reduction",),
-        include=(0.0, 100.0),
-    ),
+    Panel("reduction", "Dynamic brake reduced by the WSP", "%", ("dynamic_reduction",), include=(0.0, 100.0)),
     Panel("track", "Force of the track brake", "kN", ("track_brake_force",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
     Panel("rail", "Friction met (cleaned share dotted)", "dimensionless", ("cleaned_share", "friction")),
@@ -244,9 +237,13 @@ def channel_names(key: str) -> tuple[str, ...]:
     return tuple(f"{key}_{n}" for n in WHEELSETS) if PLOT_QUANTITIES[key].of_wheelsets else (key,)
 
 
+_KEYS: Final = {name: key for key in PLOT_QUANTITIES for name in channel_names(key)}
+"""Channel -> its quantity on every page."""
+
+
 def key_of(name: str) -> str:
     """Return the quantity of a channel."""
-    return next(key for key in PLOT_QUANTITIES if name in channel_names(key))
+    return _KEYS[name]
 
 
 def loop_lines(loop: PlotLoop) -> list[tuple[str, PlotLine]]:
@@ -260,21 +257,15 @@ def panel_lines(panel: Panel) -> tuple[PlotLine, ...]:
     return tuple(line for key in panel.quantities for line in lines_of(key))
 
 
-_KEYS: Final = MappingProxyType({name: key for key in PLOT_QUANTITIES for name in channel_names(key)})
-"""Channel -> its quantity on every page."""
-
-_WHEELSET: Final = re.compile(rf"(.+)_([{WHEELSETS[0]}-{WHEELSETS[-1]}])")
-
-_BY_SI_UNIT: Final = MappingProxyType(
-    {
-        kind.canonical: quantity.unit
-        for quantity in PLOT_QUANTITIES.values()
-        if quantity.scale != 1.0 or quantity.zero != 0.0
-        for kind in KINDS.values()
-        if quantity.unit in kind.units and kind.canonical != "1"
-    }
-)
+_BY_SI_UNIT: Final = {
+    kind.canonical: quantity.unit
+    for quantity in PLOT_QUANTITIES.values()
+    if quantity.scale != 1.0 or quantity.zero != 0.0
+    for kind in KINDS.values()
+    if quantity.unit in kind.units and kind.canonical != "1"
+}
 """SI unit -> the unit that every page shows it in; what a pure number is shown in depends on its channel."""
+_WHEELSET: Final = re.compile(rf"(.+)_([{WHEELSETS[0]}-{WHEELSETS[-1]}])")
 
 
 def shown_unit(channel: str, unit: str) -> str:

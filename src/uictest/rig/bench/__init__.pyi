@@ -1,6 +1,5 @@
-from .identified_air import identify_air as identify_air
+from .identified_air import ModelledPressure as ModelledPressure, identify_air as identify_air
 from .identified_case import identified as identified
-from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS
 from .inputs import (
     BenchInput as BenchInput,
     Clock as Clock,
@@ -18,4 +17,4 @@ from .recipe import (
     recipe_path as recipe_path,
     trace_recipe as trace_recipe,
 )
-from .run import ModelledPressure as ModelledPressure, run_bench as run_bench, run_test as run_test
+from .run import run_bench as run_bench, run_test as run_test

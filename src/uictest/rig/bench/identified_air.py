@@ -1,6 +1,8 @@
 """The air of the caliper's module identified from a record, by the code that follows it in the rig."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +11,22 @@ from uictest.core.physics import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, VENT
 from uictest.core.units import BAR, in_unit
 from uictest.plans.scenario import Case, ModuleAir
 from uictest.rig import identification
-from uictest.rig.bench.run import ModelledPressure
+from uictest.rig.assembly import assemble
+from uictest.rig.brake_assembly import set_module_air
+from uictest.rig.kernel.arguments import Length, at
+from uictest.rig.kernel.library import Entry, native_function
+from uictest.rig.model.cycle import command_valve
+from uictest.rig.model.friction_brake import follow_tank
+from uictest.rig.model.parameters import (
+    PARAMETERS,
+    WHEELSET_PARAMETERS,
+    Parameters,
+    WheelsetParameters,
+    copy_wheelset_parameters,
+)
+from uictest.rig.model.pneumatics import move_valve
+from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
+from uictest.rig.model.stop import start_module
 
 Samples = NDArray[np.float64]
 _SPACING = 0.01
@@ -162,8 +179,6 @@ def _require_volume(channels: Mapping[str, Samples], case: Case, step: float) ->
 
 
 def _powered(error: Callable[[Samples], Samples], exponent: int, unit: float) -> Callable[[Samples], Samples]:
-    """Return what has the given power of the error, in some unit, as its square."""
-
     def powered(x: Samples) -> Samples:
         relative = error(x) / unit
         return np.asarray(np.sign(relative) * np.abs(relative) ** (exponent // 2))
@@ -203,3 +218,83 @@ def _least_squares(error: Callable[[Samples], Samples], starts: Sequence[Samples
                 " long enough, and does the piston move back?"
             )
     return np.asarray(best)
+
+
+class ModelledPressure:
+    """The cylinder pressure along a record as a function of the air's five unknowns.
+
+    Args:
+        channels: time, tank and line pressure and valve commands of the record; Pa, gauge.
+        case: the rig that it was recorded on.
+        step: sampling time, s.
+    """
+
+    def __init__(self, channels: Mapping[str, Samples], case: Case, step: float) -> None:
+        self._tank, self._line = (np.ascontiguousarray(channels[name], "f8") for name in ("tank", "line"))
+        self._commands = np.ascontiguousarray(channels["command"], "i8")
+        scenario = case.scenario
+        simulation = scenario.simulation.model_copy(update={"time_step": step})
+        inputs = assemble(replace(case, scenario=scenario.model_copy(update={"simulation": simulation})))
+        self._parameters, self._of_wheelset = inputs.parameters, inputs.wheelset_parameters[0]
+        self._air, self._system = scenario.rig.compensation_model.air, scenario.brake.system
+        self._step = step
+
+    def __call__(self, unknowns: Samples) -> Samples:
+        """Return gauge pressures, Pa, at the record's instants.
+
+        Args:
+            unknowns: heat conductances of tank and caliper, W/K; swept volume as a share of a tank's;
+                opening pressure, and closing less opening pressure, gauge Pa.
+        """
+        tank, caliper, swept, opening, gap = map(float, unknowns)
+        values = {
+            "tank_heat_conductance": tank,
+            "caliper_heat_conductance": caliper,
+            "swept_volume": swept * self._system.tank.volume,
+            "opening_pressure": opening,
+            "closing_pressure": opening + gap,
+        }
+        set_module_air(self._parameters, self._air.model_copy(update=values), self._system, self._step)
+        computed = np.empty(self._tank.size)
+        native_function(WALK)(
+            *(np.zeros(1, CAR)[0], np.zeros(1, WHEELSET)[0], self._parameters, self._of_wheelset),
+            *(self._tank, self._line, self._commands, computed),
+        )
+        return computed
+
+
+def follow_record_of_air(
+    car: Car,
+    wheelset: Wheelset,
+    p: Parameters,
+    wheelset_parameters: WheelsetParameters,
+    tank: Any,
+    line: Any,
+    commands: Any,
+    computed: Any,
+) -> None:
+    """Follow a record sample by sample and fill ``computed`` with gauge pressures, Pa."""
+    copy_wheelset_parameters(wheelset, wheelset_parameters)
+    start_module(wheelset, 0.0, p)
+    wheelset.pressure_reading = tank[0]
+    computed[0] = tank[0]
+    for n in range(1, len(tank)):
+        within = (n - 1) % p.steps_per_cycle
+        if within == 0:
+            wheelset.valve_command = commands[n]
+            command_valve(wheelset, p)
+        car.substep = float(within)
+        move_valve(wheelset, car)
+        wheelset.pressure_reading = tank[n]
+        follow_tank(wheelset, line[n] + p.atmospheric_pressure, p)
+        computed[n] = wheelset.modelled_pressure - p.atmospheric_pressure
+
+
+_ROWS = Length("rows")
+WALK = Entry(
+    f"{__name__}:follow_record_of_air",
+    (
+        *(at(CAR), at(WHEELSET), at(PARAMETERS), at(WHEELSET_PARAMETERS)),
+        *(at("f8", _ROWS), at("f8", _ROWS), at("i8", _ROWS), at("f8", _ROWS)),
+    ),
+)

@@ -15,11 +15,11 @@ def identified(case: Case) -> Case:
     Raises:
         UnsuitableRecordError: the bench cannot identify a compensation for the rig; the message says why.
     """
-    own = _identified(case.scenario)
+    scenario = _identified(case.scenario)
     if case.train is not None:
         scenarios = tuple(map(_identified, case.train.scenarios))
-        return replace(case, scenario=own, train=replace(case.train, scenarios=scenarios))
-    return case if own is case.scenario else replace(case, scenario=own)
+        return replace(case, scenario=scenario, train=replace(case.train, scenarios=scenarios))
+    return case if scenario is case.scenario else replace(case, scenario=scenario)
 
 
 def _identified(scenario: Scenario) -> Scenario:

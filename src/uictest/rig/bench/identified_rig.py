@@ -35,18 +35,13 @@ from uictest.rig.bench.recipe import (
     recipe_path,
 )
 from uictest.rig.bench.run import run_test
-from uictest.rig.kernel.built import source_digest
+from uictest.rig.kernel.library import source_digest
 
 _BENCHES: Final = {"hysteresis": "six-inch-hysteresis", "pressure": "six-inch-cylinder"}
 _BASE: Final = "six-inch"
 """The compensation whose numbers the search for those of the air starts from."""
 _ACTING_TIME, _TRANSITION_TIME, _HELD_OUT = 2.0, 0.1, 0.25
 """As the defaults of `uictest identify`: s, s and a share."""
-IDENTIFIED_KEYS: Final = (
-    *("rig.caliper", "rig.sensors", "brake.system"),
-    *("rig.topology", "rig.compensation", "rig.compensation_model"),
-)
-"""Keys of a scenario at or below which the identification reads."""
 _identifying = Lock()
 _texts: dict[str, str] = {}
 """Compensation files of this process by the digest of what they depend on; only under the lock."""
@@ -133,8 +128,8 @@ def _identify(scenario: Scenario, pressure: str, name: str) -> str:
         "command": channels["valve_command_1"],
     }
     case = _on_rig(load_bench(recipe_path(_BENCHES["pressure"])), scenario).case
-    found = identify_air(air, case, _HELD_OUT, starts_near=base.air)
-    return identification.with_air(_part(text), name, found, provenance)
+    air_result = identify_air(air, case, _HELD_OUT, starts_near=base.air)
+    return identification.with_air(_part(text), name, air_result, provenance)
 
 
 def _record(bench: str, scenario: Scenario) -> tuple[dict[str, Any], identification.Provenance]:

@@ -175,14 +175,13 @@ def load_bench(
     _reject_traces_outside(tree, recipe, files)
     scenario, documents = resolve(stop, Parts(files))
     _reject_unknown_positions(tree, recipe, scenario)
-    shown = f"library:benches/{path.name}" if path.parent == _FOLDER else tree.place.document.display
-    inputs = {shown: tree.place.document.sha256}
+    shown = f"library:benches/{path.name}" if path.parent == _FOLDER else tree.location.document.display
+    inputs = {shown: tree.location.document.sha256}
     inputs |= {document.display: document.sha256 for document in documents if document.sha256}
     return BenchTest(recipe, Case(recipe.name, scenario, path, {}, inputs), path.parent)
 
 
 def _reject_traces_outside(tree: Map, recipe: BenchRecipe, files: Files) -> None:
-    """Raise ScenarioErrors for a recording outside the folders that may be read."""
     for number, segment in enumerate(recipe.inputs):
         if isinstance(segment, FileReplay):
             node = entry_at(tree, ("inputs", number, "file"))[0].node
@@ -191,13 +190,12 @@ def _reject_traces_outside(tree: Map, recipe: BenchRecipe, files: Files) -> None
 
 
 def _reject_unknown_positions(tree: Map, recipe: BenchRecipe, scenario: Scenario) -> None:
-    """Raise ScenarioErrors for a brake position that the brake system does not have."""
     positions = tuple(scenario.brake.system.positions)
     for number, segment in enumerate(recipe.inputs):
         if isinstance(segment, StopReplay) and segment.position not in (None, *positions):
             key = ("inputs", number, "position")
             raise single_error(
-                entry_at(tree, key)[0].node.place,
+                entry_at(tree, key)[0].node.location,
                 f"unknown brake position {segment.position!r}",
                 dotted(key),
                 suggestion(str(segment.position), positions),
@@ -205,22 +203,21 @@ def _reject_unknown_positions(tree: Map, recipe: BenchRecipe, scenario: Scenario
 
 
 def _scenario_tree(tree: Map, recipe: BenchRecipe, overrides: Sequence[str], seed: int | None) -> Map:
-    """Return the recipe's ``stop`` as the tree of a whole scenario."""
     section = tree.get("stop")
-    stop = section if isinstance(section, Map) else Map({}, tree.place)
+    stop = section if isinstance(section, Map) else Map({}, tree.location)
     for key in ("schema", "name", "extends", *EXPANSION_KEYS):
         if (entry := stop.entries.get(key)) is not None:
             raise single_error(
                 entry.key, f"key '{key}' does not belong here", f"stop.{key}", f"leave out {key}"
             )
     texts = {"schema": SCENARIO_SCHEMA, "name": recipe.name, "initial_speed": "80 km/h"}
-    required = {key: Entry(stop.place, Scalar(text, text, stop.place)) for key, text in texts.items()}
+    required = {key: Entry(stop.location, Scalar(text, text, stop.location)) for key, text in texts.items()}
     whole = with_default_parts(stop._replace(entries={**required, **stop.entries}))
     changed = apply_overrides(whole, parse_overrides(overrides, seed))
     for key in EXPANSION_KEYS:
         if (entry := changed.entries.get(key)) is not None:
             raise single_error(
-                entry.node.place, "a bench test is one run: give one value", hint="no lists here"
+                entry.node.location, "a bench test is one run: give one value", hint="no lists here"
             )
     return changed
 

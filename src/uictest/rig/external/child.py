@@ -14,24 +14,21 @@ from typing import Any, BinaryIO, Final
 import numpy as np
 
 from uictest.controllers import EXCHANGE, ControllerError
-from uictest.rig.external.block import run_block
 from uictest.rig.external.drives import drive_controller
-from uictest.rig.external.in_process import run_in_process, run_train_in_process
+from uictest.rig.external.in_process import run_block, run_train_in_process
 from uictest.rig.external.messages import (
     Message,
     StreamEndedError,
     block_of,
     drive_request_of,
     drives_message,
-    finished_message,
     read_message,
     run_message,
-    stop_of,
     train_of,
     train_stop_message,
     write_message,
 )
-from uictest.rig.kernel.built import source_digest
+from uictest.rig.kernel.library import source_digest
 
 MEMORY_LIMIT: Final = 4 * 2**30
 """Most memory of a child, or of a process that its controller starts, bytes; chosen: a child takes some
@@ -71,12 +68,10 @@ def serve(exchange_file: int, sources: str) -> None:
 def _answer(request: Message, exchanges: Any) -> Message:
     try:
         match request.head["request"]:
-            case "stop":
-                return finished_message(run_in_process(*stop_of(request), exchanges[0]))
             case "train":
                 inputs, steps_per_sample = train_of(request)
-                own = exchanges[: len(inputs.from_outside)]
-                return train_stop_message(run_train_in_process(inputs, steps_per_sample, own))
+                own_exchanges = exchanges[: len(inputs.from_outside)]
+                return train_stop_message(run_train_in_process(inputs, steps_per_sample, own_exchanges))
             case "block":
                 block = block_of(request)
                 return run_message(run_block(block, exchanges[: len(block.programs)]))

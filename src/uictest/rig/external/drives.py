@@ -134,7 +134,6 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
 
 
 def _drive_beside(instance: ControllerInstance, request: DriveRequest, calls: ControllerCalls) -> Driven:
-    """Drive a controller that has been reset while another one is driven."""
     inputs, cycle_time = request.inputs, request.config.cycle_time
     reversed_inputs = inputs[::-1].copy()
     for name in ("cycle", "time"):  # its own cycles begin at 0, too: no clock runs backwards
@@ -179,7 +178,7 @@ def _answers(
     brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
     effort = inputs["dynamic_brake"][:1].copy()
     untouched = UNTOUCHED if instance.contract == 1 else 0.0
-    blank, kept = _blank(untouched), [untouched] * len(reduction)
+    blank, untouched_reduction = _blank(untouched), [untouched] * len(reduction)
     newest = [0.0] * len(pressure)
     for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
         memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
@@ -199,7 +198,10 @@ def _answers(
         calls.restore_state("step")
         beyond = fields.guard != GUARD
         if beyond or (
-            untouched and (reduction[:] != kept or any(fields.sand_request) or fields.track_brake_request)
+            untouched
+            and (
+                reduction[:] != untouched_reduction or any(fields.sand_request) or fields.track_brake_request
+            )
         ):
             fields.failure = WROTE_BEYOND
         elif status != 0:

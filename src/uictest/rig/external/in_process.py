@@ -1,13 +1,14 @@
-"""A stop in this process, of a car or a train; controllers from outside opened and driven."""
+"""Stops in this process, of a train or of many cars alone; controllers from outside opened and driven."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from threading import Lock
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uictest.controllers import (
     CLOSING,
@@ -32,10 +33,19 @@ from uictest.controllers import (
     open_controller,
     shown_version,
 )
-from uictest.rig.backends.stops import compiled_rig
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.external.process_state import ControllerCalls
-from uictest.rig.single_stop import FinishedStop, StopInputs
-from uictest.rig.train_stop import TrainInputs, TrainStop, run_to_end, run_train_to_end
+from uictest.rig.stops import compiled_rig
+from uictest.rig.train_stop import (
+    FinishedStop,
+    StopInputs,
+    TrainInputs,
+    TrainStop,
+    alone,
+    run_to_end,
+    run_train_to_end,
+    stacked,
+)
 
 _FAILURES: Final = {
     STEP_FAILED: "step failed: {error}",
@@ -78,7 +88,12 @@ def opened(
     with alone:
         calls = ControllerCalls(exchange)
         with calls.of("loading, create or reset", OPENING):
-            instance = _reset_instance(program, config)
+            instance = open_controller(program, config)
+            try:
+                instance.reset()
+            except BaseException:
+                instance.close()
+                raise
     try:
         check_requests(instance.contract, parameters)
         parameters["controller_step"] = instance.step_address
@@ -90,16 +105,6 @@ def opened(
     finally:
         with alone, calls.of("destroy", CLOSING):
             instance.close()
-
-
-def _reset_instance(program: ControllerProgram, config: Config) -> ControllerInstance:
-    instance = open_controller(program, config)
-    try:
-        instance.reset()
-    except BaseException:
-        instance.close()
-        raise
-    return instance
 
 
 def check_requests(contract: int, parameters: Any) -> None:
@@ -119,48 +124,40 @@ def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
     Raises:
         DamagedExchangeError: when what the rig noted on the controller is not what it left there.
     """
-    failure, place = int(exchange["failure"]), int(exchange["failed_wheelset"])
-    if _is_damaged(exchange, failure, place):
+    failure, wheelset = int(exchange["failure"]), int(exchange["failed_wheelset"])
+    if _is_damaged(exchange, failure, wheelset):
         exchange["failure"] = WROTE_BEYOND
         raise DamagedExchangeError("some controller of the process wrote beyond its outputs")
     if failure == NO_FAILURE:
         if not instance.failed:
             return
         failure = STEP_FAILED
+    error = ""
+    if failure == STEP_FAILED:
+        exchange["calling"] = EXPLAINING  # for whoever watches the process
+        error = instance.last_error() or "no reason given"
+        exchange["calling"] = NOT_CALLED
     reason = _FAILURES[failure].format(
-        error=_explanation(exchange, instance) if failure == STEP_FAILED else "",
-        wheelset=place + 1,
-        hold=exchange["hold"][place],
-        vent=exchange["vent"][place],
-        reduction=exchange["dynamic_reduction"][place],
+        error=error,
+        wheelset=wheelset + 1,
+        hold=exchange["hold"][wheelset],
+        vent=exchange["vent"][wheelset],
+        reduction=exchange["dynamic_reduction"][wheelset],
         reference=exchange["reference_speed"],
-        sand=exchange["sand_request"][place],
+        sand=exchange["sand_request"][wheelset],
         track_brake=exchange["track_brake_request"],
     )
     raise ControllerError(f"{reason} (cycle {exchange['cycle']})")
 
 
-def _is_at_fault(finished: FinishedStop, exchange: Any) -> bool:
-    """Whether a controller failed, by more than what others wrote on it."""
-    return bool(finished.car["controller_failed"] and exchange["failure"] != DAMAGED)
-
-
-def _is_damaged(exchange: Any, failure: int, place: int) -> bool:
+def _is_damaged(exchange: Any, failure: int, wheelset: int) -> bool:
     if failure == NO_FAILURE:  # then the guard is whole: a broken one is a failure when its step returns
-        return place != 0 or bool(exchange["cycles"] and exchange["guard"] != GUARD)
-    return failure not in _FAILURES or not 0 <= place < len(exchange["hold"])
-
-
-def _explanation(exchange: Any, instance: ControllerInstance) -> str:
-    """Ask why a step failed; whoever watches sees which controller is asked."""
-    exchange["calling"] = EXPLAINING
-    error = instance.last_error()
-    exchange["calling"] = NOT_CALLED
-    return error or "no reason given"
+        return wheelset != 0 or bool(exchange["cycles"] and exchange["guard"] != GUARD)
+    return failure not in _FAILURES or not 0 <= wheelset < len(exchange["hold"])
 
 
 def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any = None) -> FinishedStop:
-    """Run a stop with its controller, built in or from outside, in this process.
+    """Run a stop of a car alone with its controller, built in or from outside, in this process.
 
     Args:
         inputs: parameters, rail and controller.
@@ -170,13 +167,9 @@ def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any 
     Raises:
         ControllerError: when a controller from outside cannot be opened, or failed.
     """
-    run_stop = compiled_rig()
-    if inputs.program is None or inputs.config is None:
-        return run_to_end(run_stop, inputs, steps_per_sample)
-    exchange = empty_exchange() if exchange is None else exchange
-    with opened(inputs.program, inputs.config, inputs.parameters, exchange) as controller:
-        finished = run_to_end(run_stop, inputs, steps_per_sample)
-    return _with_controller(finished, controller)
+    exchanges = None if exchange is None or inputs.program is None else [exchange]
+    [finished] = run_train_in_process(alone(inputs), steps_per_sample, exchanges).cars
+    return finished
 
 
 def run_train_in_process(
@@ -191,52 +184,156 @@ def run_train_in_process(
             outside in the order of the train [default: memory of its own].
 
     Raises:
-        ControllerError: when a controller from outside cannot be opened, or failed; it names the car.
+        ControllerError: when a controller from outside cannot be opened, or failed; it names the car of a
+            train of several.
     """
     run_train, programs = compiled_rig(), inputs.from_outside
     if exchanges is None:
         exchanges = [empty_exchange() for _ in programs]
-    own_exchanges = dict(zip(programs, exchanges, strict=True))
+    exchange_of_car = dict(zip(programs, exchanges, strict=True))
     controllers: dict[int, ControllerInstance] = {}
     with ExitStack() as stack:
         # In one order: trains that need the same programs at sockets do not wait for each other for ever.
         for car in sorted(programs, key=lambda car: programs[car].location):
-            config, exchange = inputs.configs[car], own_exchanges[car]
+            config = inputs.configs[car]
             assert config is not None
-            with of_car(car, programs[car]):
-                context = opened(programs[car], config, inputs.parameters[car], exchange)
+            with of_car(car, inputs):
+                context = opened(programs[car], config, inputs.parameters[car], exchange_of_car[car])
                 controllers[car] = stack.enter_context(context)
         stop = run_train_to_end(run_train, inputs, steps_per_sample)
         # What a record says of a car that has not failed, another has written, which is told first.
-        for car in sorted(programs, key=lambda car: not _is_at_fault(stop.cars[car], own_exchanges[car])):
-            with of_car(car, programs[car]):
-                raise_failure(own_exchanges[car], controllers[car])
-    return stop._replace(
-        cars=tuple(
-            finished if car not in controllers else _with_controller(finished, controllers[car])
-            for car, finished in enumerate(stop.cars)
+        at_fault = {
+            car: stop.cars[car].car["controller_failed"] and exchange_of_car[car]["failure"] != DAMAGED
+            for car in programs
+        }
+        for car in sorted(programs, key=lambda car: not at_fault[car]):
+            with of_car(car, inputs):
+                raise_failure(exchange_of_car[car], controllers[car])
+    cars = list(stop.cars)
+    for car, controller in controllers.items():
+        cars[car] = replace(
+            cars[car],
+            controller_version=shown_version(controller.version),
+            response_times=controller.response_times,
+            contract=controller.contract,
         )
-    )
+    return stop._replace(cars=tuple(cars))
 
 
 @contextmanager
-def of_car(car: int, program: ControllerProgram) -> Iterator[None]:
-    """Let the error of a controller name its car, which is counted from 0, and its program."""
+def of_car(car: int, inputs: TrainInputs) -> Iterator[None]:
+    """Let the error of a controller in a train of several cars name its car and its program."""
     try:
         yield
     except DamagedExchangeError:
         raise
     except ControllerError as error:
+        program = inputs.programs[car]
+        if program is None or len(inputs.programs) == 1:
+            raise
         name = program.location if program.kind == "connect" else Path(program.location).name
         named = ControllerError(f"car {car + 1} ({name}): {error}")
         named.output = error.output
         raise named from error
 
 
-def _with_controller(finished: FinishedStop, controller: ControllerInstance) -> FinishedStop:
-    return replace(
-        finished,
-        controller_version=shown_version(controller.version),
-        response_times=controller.response_times,
-        contract=controller.contract,
-    )
+class BlockRun(NamedTuple):
+    """What a block of stops leaves.
+
+    Attributes:
+        measures: records of :data:`uictest.core.measures.STOP_MEASURES`, shape (cases,).
+        wheelset_measures: records of :data:`uictest.core.measures.WHEELSET_MEASURES`, shape (cases, 4).
+        failures: for each case why its controller failed, empty where it did not; the measures of a case
+            that failed mean nothing.
+    """
+
+    measures: NDArray[Any]
+    wheelset_measures: NDArray[Any]
+    failures: list[str]
+
+
+class BlockInputs(NamedTuple):
+    """What a block of stops is run with.
+
+    Attributes:
+        programs: the controller of each case that comes from outside, None where it is built in.
+        configs: what those controllers are given before the stop.
+        parameters: as for :func:`~uictest.rig.lanes.run_in_lanes`; the addresses of controllers from
+            outside are written into them.
+        wheelset_parameters: likewise.
+        rail: likewise.
+    """
+
+    programs: Sequence[ControllerProgram | None]
+    configs: Sequence[Config | None]
+    parameters: NDArray[Any]
+    wheelset_parameters: NDArray[Any]
+    rail: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, stops: Sequence[StopInputs]) -> "BlockInputs":
+        """Return some stops as a block."""
+        return cls([stop.program for stop in stops], [stop.config for stop in stops], *stacked(stops))
+
+    def at(self, cases: Sequence[int]) -> "BlockInputs":
+        """Return some of the cases."""
+        return BlockInputs(
+            [self.programs[case] for case in cases],
+            [self.configs[case] for case in cases],
+            *(self.parameters[cases], self.wheelset_parameters[cases], self.rail[cases]),
+        )
+
+
+def run_block(inputs: BlockInputs, exchanges: NDArray[Any] | None = None) -> BlockRun:
+    """Run the stop of every case; a controller that fails ends its own stop, the others keep their bits.
+
+    Controllers in machine code are called by address, lane by lane. Others run their stops one after the
+    other: they need the interpreter, or can have only one controller at a time.
+
+    Args:
+        inputs: the cases.
+        exchanges: zeroed records of :data:`~uictest.controllers.EXCHANGE`, one per case, through which the
+            controllers are called [default: memory of its own].
+    """
+    count = len(inputs.programs)
+    run, exchanges = empty_run(count), np.zeros(count, EXCHANGE) if exchanges is None else exchanges
+    in_lanes: list[int] = []
+    with ExitStack() as controllers:
+        for case in range(count):
+            program, config = inputs.programs[case], inputs.configs[case]
+            records = inputs.parameters[case], inputs.wheelset_parameters[case], inputs.rail[case]
+            if program is None or config is None:
+                in_lanes.append(case)
+                continue
+            with ExitStack() as opening:
+                # The outer context gets the failure of a stop, which is known when its controller is closed.
+                opening.enter_context(_noted(run.failures, case))
+                controller = opening.enter_context(opened(program, config, records[0], exchanges[case]))
+                if controller.runs_beside_others:
+                    controllers.enter_context(opening.pop_all())
+                    in_lanes.append(case)
+                else:
+                    finished = run_to_end(compiled_rig(), StopInputs(*records))
+                    run.measures[case] = finished.measures
+                    run.wheelset_measures[case] = finished.wheelset_measures
+        if in_lanes:
+            from uictest.rig.lanes import run_in_lanes  # single stops do without them
+
+            selected = inputs.at(in_lanes)
+            batch = run_in_lanes(selected.parameters, selected.wheelset_parameters, selected.rail)
+            run.measures[in_lanes], run.wheelset_measures[in_lanes] = batch
+    return run
+
+
+def empty_run(count: int) -> BlockRun:
+    """Return what so many stops leave, not yet filled."""
+    return BlockRun(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES), [""] * count)
+
+
+@contextmanager
+def _noted(failures: list[str], case: int) -> Iterator[None]:
+    """Keep why the controller of a case failed, instead of raising it."""
+    try:
+        yield
+    except ControllerError as error:
+        failures[case] = f"controller: {error}"

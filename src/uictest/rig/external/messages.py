@@ -7,19 +7,17 @@ from dataclasses import asdict
 from typing import Any, BinaryIO, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uictest.controllers import INPUTS, OUTPUTS, Config, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.drives import Driven, DriveRequest, Drives
-from uictest.rig.model.couplers import COUPLER
-from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.external.in_process import BlockInputs, BlockRun
+from uictest.rig.model.parameters import PARAMETERS, WHEELSET_PARAMETERS
 from uictest.rig.model.rail import ROWS
-from uictest.rig.model.state import CAR, WHEELSET
+from uictest.rig.model.state import CAR, COUPLER, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.single_stop import FinishedStop, StopInputs
-from uictest.rig.train_stop import TrainInputs, TrainStop
+from uictest.rig.train_stop import FinishedStop, TrainInputs, TrainStop
 
 _COUNT: Final = struct.Struct("<I")
 _LENGTH: Final = struct.Struct("<Q")
@@ -61,12 +59,12 @@ def read_message(stream: BinaryIO) -> Message:
         raise BrokenMessageError(f"{sum(lengths)} bytes")
     head, *blocks = [_exactly(stream, length) for length in lengths]
     try:
-        said = json.loads(head)
+        content = json.loads(head)
     except (ValueError, RecursionError) as error:
         raise BrokenMessageError("no JSON") from error
-    if not isinstance(said, dict):
+    if not isinstance(content, dict):
         raise BrokenMessageError("no JSON object")
-    return Message(said, tuple(blocks))
+    return Message(content, tuple(blocks))
 
 
 def _exactly(stream: BinaryIO, size: int) -> bytes:
@@ -127,42 +125,11 @@ def drives_of(message: Message) -> Drives:
     pairs = zip(message.blocks[::2], message.blocks[1::2], strict=True)
     drives = (Driven(np.frombuffer(outputs, OUTPUTS), np.frombuffer(seconds)) for outputs, seconds in pairs)
     head = message.head
-    said = head["declares"], head["contract"], tuple(head["traces"])
-    return Drives(head["version"], tuple(drives), *said)
+    declared = head["declares"], head["contract"], tuple(head["traces"])
+    return Drives(head["version"], tuple(drives), *declared)
 
 
 _STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)
-
-
-def stop_message(inputs: StopInputs, steps_per_sample: int) -> Message:
-    """Return a stop with a controller from outside as a message."""
-    records = inputs.parameters, inputs.wheelset_parameters, inputs.rail
-    head = {
-        "request": "stop",
-        "steps_per_sample": steps_per_sample,
-        "controllers": written_controllers([inputs.program], [inputs.config]),
-    }
-    return Message(head, bytes_of(records))
-
-
-def stop_of(message: Message) -> tuple[StopInputs, int]:
-    """Return the stop in a message, and the base steps from one sample of its trace to the next."""
-    inputs = block_of(message)
-    first = inputs.parameters[0], inputs.wheelset_parameters[0], inputs.rail[0]
-    return StopInputs(*first, inputs.programs[0], inputs.configs[0]), message.head["steps_per_sample"]
-
-
-def finished_message(finished: FinishedStop) -> Message:
-    """Return what a stop leaves as a message."""
-    own = finished.measures, finished.wheelset_measures, finished.car, finished.wheelsets
-    head = {"controller_version": finished.controller_version, "contract": finished.contract}
-    return Message(head, bytes_of((*own, *finished.trace)))
-
-
-def finished_of(message: Message) -> FinishedStop:
-    """Return what a stop has left."""
-    records = [np.frombuffer(*each) for each in zip(message.blocks, _STOP, strict=True)]
-    return _finished(records, message.head["controller_version"], message.head["contract"])
 
 
 def _finished(records: Sequence[Any], controller_version: str, contract: int) -> FinishedStop:
@@ -179,7 +146,11 @@ def _finished(records: Sequence[Any], controller_version: str, contract: int) ->
 
 
 _TRAIN: Final = (PARAMETERS, WHEELSET_PARAMETERS, np.float64, COUPLER, np.float64)
-_TRAIN_STOP: Final = (*_STOP, COUPLER)
+
+
+def _arrays(blocks: Sequence[bytes | bytearray], layouts: Sequence[Any]) -> list[NDArray[Any]]:
+    pairs = zip(blocks, layouts, strict=True)
+    return [np.frombuffer(block, layout) if block else np.empty(0, layout) for block, layout in pairs]
 
 
 def train_message(inputs: TrainInputs, steps_per_sample: int) -> Message:
@@ -195,13 +166,13 @@ def train_message(inputs: TrainInputs, steps_per_sample: int) -> Message:
 
 def train_of(message: Message) -> tuple[TrainInputs, int]:
     """Return the stop of a train in a message, and the base steps from one sample to the next."""
-    blocks = map(bytearray, message.blocks)  # to be written to
-    parameters, of_wheelsets, distances, couplers, rail = (
-        np.frombuffer(*each) if each[0] else np.empty(0, each[1]) for each in zip(blocks, _TRAIN, strict=True)
-    )
+    blocks = [bytearray(block) for block in message.blocks]  # to be written to
+    parameters, of_wheelsets, distances, couplers, rail = _arrays(blocks, _TRAIN)
     controllers = map(read_controller, message.head["controllers"])
-    own = dict(zip(message.head["places"], controllers, strict=True))
-    programs, configs = zip(*(own.get(car, (None, None)) for car in range(len(parameters))), strict=True)
+    controller_of_car = dict(zip(message.head["places"], controllers, strict=True))
+    programs, configs = zip(
+        *(controller_of_car.get(car, (None, None)) for car in range(len(parameters))), strict=True
+    )
     records = parameters, of_wheelsets.reshape(-1, 4), distances, couplers, rail.reshape(ROWS, -1)
     return TrainInputs(*records, programs, configs), message.head["steps_per_sample"]
 
@@ -221,13 +192,10 @@ def train_stop_message(stop: TrainStop) -> Message:
 
 def train_stop_of(message: Message, parameters: Any) -> TrainStop:
     """Return what a stop of a train has left; the parameters are those that it was given."""
-    *of_cars, couplers = (
-        np.frombuffer(*each) if each[0] else np.empty(0, each[1])
-        for each in zip(message.blocks, _TRAIN_STOP, strict=True)
-    )
+    *of_cars, couplers = _arrays(message.blocks, (*_STOP, COUPLER))
     cars = zip(*(each.reshape(len(parameters), -1) for each in of_cars), strict=True)
-    said = message.head["controller_version"], message.head["contract"]
-    finished = tuple(_finished(*of_car) for of_car in zip(cars, *said, strict=True))
+    stated = message.head["controller_version"], message.head["contract"]
+    finished = tuple(_finished(*of_car) for of_car in zip(cars, *stated, strict=True))
     return TrainStop(finished, couplers, parameters)
 
 

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import weakref
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from select import select
 from socket import socket, socketpair
@@ -27,8 +28,8 @@ from uictest.controllers import (
     ProgramKey,
 )
 from uictest.core.guarded_process import GuardedProcess
-from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.drives import DriveRequest, Drives
+from uictest.rig.external.in_process import BlockInputs, BlockRun
 from uictest.rig.external.messages import (
     BrokenMessageError,
     Message,
@@ -36,18 +37,14 @@ from uictest.rig.external.messages import (
     block_message,
     drive_message,
     drives_of,
-    finished_of,
     read_message,
     run_of,
-    stop_message,
     train_message,
     train_stop_of,
     write_message,
 )
-from uictest.rig.external.printed import PrintedOutput
 from uictest.rig.external.process_state import require_guard
-from uictest.rig.kernel.built import source_digest
-from uictest.rig.single_stop import FinishedStop, StopInputs
+from uictest.rig.kernel.library import source_digest
 from uictest.rig.train_stop import TrainInputs, TrainStop
 
 LARGEST_BLOCK: Final = 256
@@ -71,18 +68,60 @@ _NAMES: Final = {
     NOT_CALLED: "what runs outside of its calls (a destructor, a thread)",
 }
 
+LARGEST_OUTPUT: Final = 2**20
+"""Bytes that are kept of what a controller prints in a stop; chosen: some ten thousand lines."""
+_PIPE: Final = 2**16
+"""Bytes that a pipe holds at most."""
+
+
+class PrintedOutput:
+    """The pipe of a child, which is given `its_end`; None where it prints to our standard error."""
+
+    def __init__(self, *, kept: bool) -> None:
+        self.its_end: int | None = None
+        self.open_ends: list[int] = []
+        """Our end, until the child has closed its own."""
+        if kept:
+            end, self.its_end = os.pipe()
+            os.set_blocking(end, False)
+            self.open_ends.append(end)
+        self._kept, self._size = bytearray(), 0
+
+    def read(self) -> None:
+        """Take what is there: more than a pipe holds has no place to wait."""
+        for end in self.open_ends:
+            with suppress(BlockingIOError):
+                part = os.read(end, _PIPE)
+                self._size += len(part)
+                self._kept += part[: LARGEST_OUTPUT - len(self._kept)]
+                if not part:
+                    self.close()
+
+    def taken(self) -> str:
+        """Return what was printed since the last time, and how much of that was not kept."""
+        self.read()
+        text, lost = self._kept.decode("utf-8", "replace"), self._size - len(self._kept)
+        self._kept, self._size = bytearray(), 0
+        return f"{text}\n... {lost} bytes more, {LARGEST_OUTPUT} are kept\n" if lost else text
+
+    def close(self) -> None:
+        """Close our end."""
+        while self.open_ends:
+            os.close(self.open_ends.pop())
+
+
 Read = TypeVar("Read")
 
 
 class LostChildError(ControllerError):
     """A controller crashed, or did not return in time, and its process is gone.
 
-    `place` is that of the stop in its block, None where it is not known.
+    `index` is that of the stop in its block, None where it is not known.
     """
 
-    def __init__(self, message: str, place: int | None) -> None:
+    def __init__(self, message: str, index: int | None) -> None:
         super().__init__(message)
-        self.place = place
+        self.index = index
 
 
 class Worker:
@@ -109,12 +148,11 @@ class Worker:
         self.usable = True
         """Whether another stop may be run on it."""
 
-    def run(self, inputs: StopInputs, steps_per_sample: int) -> FinishedStop:
-        """Run a stop. Raises ControllerError; LostChildError where the child is gone."""
-        return self._answer(stop_message(inputs, steps_per_sample), [inputs.program], finished_of)
-
     def run_train(self, inputs: TrainInputs, steps_per_sample: int) -> TrainStop:
-        """Run a stop of a train. Raises ControllerError, as :meth:`run`; `place` counts such cars only."""
+        """Run a stop of a train.
+
+        Raises ControllerError; LostChildError where the child is gone, whose `index` counts such cars only.
+        """
         programs = list(inputs.from_outside.values())
         request = train_message(inputs, steps_per_sample)
         return self._answer(request, programs, lambda answer: train_stop_of(answer, inputs.parameters))
@@ -124,7 +162,7 @@ class Worker:
         return self._answer(block_message(inputs), inputs.programs, run_of)
 
     def drive(self, request: DriveRequest) -> Drives:
-        """Drive a controller through given cycles. Raises ControllerError, as :meth:`run`."""
+        """Drive a controller through given cycles. Raises ControllerError, as :meth:`run_train`."""
         return self._answer(drive_message(request), [request.program], drives_of)
 
     def close(self) -> None:
@@ -174,28 +212,26 @@ class Worker:
     def _wait(self, time_limits: Sequence[float]) -> None:
         """Wait for an answer; a child that does not get on in time, whatever it does, is an error."""
         state, since = self._state(), monotonic()
-        while not self._has_answered_within(min(_LONGEST_WAIT, *time_limits)):
+        while True:
+            watched: list[socket | int] = [self._channel, *self.printed.open_ends]
+            ready, _, _ = select(watched, [], [], min(_LONGEST_WAIT, *time_limits))
+            self.printed.read()
+            if self._channel in ready:
+                return
             now = self._state()
             if now != state:
                 state, since = now, monotonic()
-            place, calling, _ = state
+            stop, calling, _ = state
             least = {STEPPING: 0.0, NOT_CALLED: IDLE_LIMIT}.get(calling, OPENING_LIMIT)
-            limit = max(least, time_limits[place])
+            limit = max(least, time_limits[stop])
             if monotonic() - since > limit:
                 raise self._lost(f"{_NAMES[calling]} did not return within {limit:g} s")
-
-    def _has_answered_within(self, seconds: float) -> bool:
-        """Wait for an answer, and take what is printed meanwhile."""
-        watched: list[socket | int] = [self._channel, *self.printed.open_ends]
-        ready, _, _ = select(watched, [], [], seconds)
-        self.printed.read()
-        return self._channel in ready
 
     def _state(self) -> tuple[int, int, int]:
         """Return which stop's controller is asked at present, for what, and how many steps were begun."""
         calling = self._calling()
-        place = int(calling.argmax())
-        return place, int(calling[place]), int(self._exchanges["cycles"].sum())
+        stop = int(calling.argmax())
+        return stop, int(calling[stop]), int(self._exchanges["cycles"].sum())
 
     def _calling(self) -> Any:
         """Return what each controller is asked at present; what a library wrote over it is no call."""
@@ -205,10 +241,10 @@ class Worker:
     def _lost(self, what: str) -> LostChildError:
         """Return the error of the stop whose controller has not returned."""
         calling = np.flatnonzero(self._calling())
-        place = int(calling[0]) if calling.size else None
-        exchange = self._exchanges[place or 0]
+        stop = int(calling[0]) if calling.size else None
+        exchange = self._exchanges[stop or 0]
         cycle = f"cycle {exchange['cycle']}" if exchange["cycles"] else "before the first cycle"
-        return LostChildError(f"{what} ({cycle})", place)
+        return LostChildError(f"{what} ({cycle})", stop)
 
     def _ending(self) -> str:
         """Return in words how the child ended."""
@@ -225,7 +261,6 @@ class Worker:
 
 
 def _started(exchange_file: int, folder: str, printed: PrintedOutput) -> tuple[GuardedProcess, socket]:
-    """Start a child; return it, and what it is talked to through."""
     channel, its_channel = socketpair()
     channel.settimeout(ANSWER_LIMIT)
     streams = {"stdin": its_channel, "stdout": its_channel, "stderr": printed.its_end}
@@ -251,7 +286,6 @@ def _started(exchange_file: int, folder: str, printed: PrintedOutput) -> tuple[G
 
 
 def _end(process: GuardedProcess, channel: socket, folder: Any, printed: PrintedOutput) -> None:
-    """End a child, its guard and whatever it has started."""
     process.end()
     channel.close()
     folder.cleanup()

@@ -1,6 +1,6 @@
 """Every stop passes here: it runs in this process, or in a child if its controller is from outside."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from threading import Lock
@@ -8,12 +8,18 @@ from types import TracebackType
 from typing import Final, Self, TypeGuard
 
 from uictest.controllers import ControllerError, ControllerProgram, ProgramKey
-from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, run_block
 from uictest.rig.external.drives import DriveRequest, Drives, drive_controller
-from uictest.rig.external.in_process import empty_exchange, of_car, run_in_process, run_train_in_process
+from uictest.rig.external.in_process import (
+    BlockInputs,
+    BlockRun,
+    empty_exchange,
+    empty_run,
+    of_car,
+    run_block,
+    run_train_in_process,
+)
 from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, Worker
-from uictest.rig.single_stop import FinishedStop, StopInputs
-from uictest.rig.train_stop import TrainInputs, TrainStop
+from uictest.rig.train_stop import FinishedStop, StopInputs, TrainInputs, TrainStop, alone
 
 RunInputs = Callable[[StopInputs, int], FinishedStop]
 """Runs a stop, with so many base steps between two samples of its trace: here or in a child process."""
@@ -71,16 +77,14 @@ class Workers:
         Raises:
             ControllerError: when the controller cannot be opened, failed, crashed or did not answer in time.
         """
-        if not _is_isolated(inputs.program):
-            return run_in_process(inputs, steps_per_sample)
-        with self._worker(inputs.program) as worker:
-            return replace(worker.run(inputs, steps_per_sample), controller_output=worker.printed.taken())
+        [finished] = self.run_train(alone(inputs), steps_per_sample).cars
+        return finished
 
     def run_train(self, inputs: TrainInputs, steps_per_sample: int = 0) -> TrainStop:
         """Run a stop of a train; one whose controllers are built in, or processes of their own, runs here.
 
         Raises:
-            ControllerError: as :meth:`run`; the message names the car.
+            ControllerError: as :meth:`run`; the message names the car of a train of several.
         """
         programs = inputs.from_outside
         if not any(map(_is_isolated, programs.values())):
@@ -90,27 +94,28 @@ class Workers:
                 stop = worker.run_train(inputs, steps_per_sample)
                 output = worker.printed.taken()  # of all controllers, which one process runs
             cars = (
-                replace(car, controller_output=output if place in programs else "")
-                for place, car in enumerate(stop.cars)
+                replace(car, controller_output=output if index in programs else "")
+                for index, car in enumerate(stop.cars)
             )
             return stop._replace(cars=tuple(cars))
         except LostChildError as error:
-            if error.place is None:
+            if error.index is None:
                 raise
-            car, program = list(programs.items())[error.place]
-            with of_car(car, program):
+            with of_car(list(programs)[error.index], inputs):
                 raise
 
     def run_block(self, inputs: BlockInputs) -> BlockRun:
         """Run many stops; those whose controller is built in, or a process of its own, run here."""
-        places = range(len(inputs.programs))
-        here = [place for place in places if not _is_isolated(inputs.programs[place])]
-        run = empty_run(len(places))
-        if here:
-            _put(run, here, run_block(inputs.at(here)))
-        for there in _places_by_program(inputs.programs):
-            for first in range(0, len(there), LARGEST_BLOCK):
-                self._run_isolated(inputs, there[first : first + LARGEST_BLOCK], run)
+        run = empty_run(len(inputs.programs))
+        cases_of: dict[ProgramKey | None, list[int]] = {}
+        for case, program in enumerate(inputs.programs):
+            cases_of.setdefault(program.key if _is_isolated(program) else None, []).append(case)
+        for key, cases in cases_of.items():
+            if key is None:
+                _put(run, cases, run_block(inputs.at(cases)))
+                continue
+            for first in range(0, len(cases), LARGEST_BLOCK):
+                self._run_isolated(inputs, cases[first : first + LARGEST_BLOCK], run)
         return run
 
     def drive(self, request: DriveRequest) -> Drives:
@@ -128,19 +133,19 @@ class Workers:
         for worker in workers:
             worker.close()
 
-    def _run_isolated(self, inputs: BlockInputs, places: list[int], run: BlockRun) -> None:
+    def _run_isolated(self, inputs: BlockInputs, cases: list[int], run: BlockRun) -> None:
         """Run some stops in a child; when it is lost, find the stop at fault and run the others again."""
-        while places:
+        while cases:
             try:
-                with self._worker(inputs.programs[places[0]]) as worker:
-                    _put(run, places, worker.run_block(inputs.at(places)))
+                with self._worker(inputs.programs[cases[0]]) as worker:
+                    _put(run, cases, worker.run_block(inputs.at(cases)))
                 return
             except LostChildError as error:
-                if error.place is None and len(places) > 1:
+                if error.index is None and len(cases) > 1:
                     break
-                run.failures[places.pop(error.place or 0)] = f"controller: {error}"
-        for place in places:
-            self._run_isolated(inputs, [place], run)
+                run.failures[cases.pop(error.index or 0)] = f"controller: {error}"
+        for case in cases:
+            self._run_isolated(inputs, [case], run)
 
     @contextmanager
     def _worker(self, *programs: ControllerProgram | None) -> Iterator[Worker]:
@@ -180,17 +185,7 @@ def _is_isolated(program: ControllerProgram | None) -> TypeGuard[ControllerProgr
     return program is not None and program.kind != "connect"
 
 
-def _places_by_program(programs: Sequence[ControllerProgram | None]) -> Iterable[list[int]]:
-    """Return the places of the stops that run in children, those of a program together."""
-    places: dict[ProgramKey, list[int]] = {}
-    for place, program in enumerate(programs):
-        if _is_isolated(program):
-            places.setdefault(program.key, []).append(place)
-    return places.values()
-
-
-def _put(run: BlockRun, places: Sequence[int], part: BlockRun) -> None:
-    """Enter what some of the stops have left."""
-    run.measures[places], run.wheelset_measures[places] = part.measures, part.wheelset_measures
-    for place, failure in zip(places, part.failures, strict=True):
-        run.failures[place] = failure
+def _put(run: BlockRun, cases: Sequence[int], part: BlockRun) -> None:
+    run.measures[cases], run.wheelset_measures[cases] = part.measures, part.wheelset_measures
+    for case, failure in zip(cases, part.failures, strict=True):
+        run.failures[case] = failure

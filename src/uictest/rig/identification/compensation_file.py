@@ -115,7 +115,7 @@ def with_hysteresis(
             "text": "Options --transition-time and --acting-time of the identification",
         },
     }
-    return _text(base, name, numbers, sources, provenance, _provenance("hysteresis", base, provenance, fit))
+    return _text(base, name, numbers, sources, provenance, "hysteresis", fit)
 
 
 def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
@@ -138,7 +138,7 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
         f" fit {result.fit:.2f} %"
     )
     sources = {source: _identified("Cylinder dynamics", provenance, fit)}
-    return _text(base, name, numbers, sources, provenance, _provenance("cylinder", base, provenance, fit))
+    return _text(base, name, numbers, sources, provenance, "cylinder", fit)
 
 
 def with_air(base: Compensation, name: str, result: AirResult, provenance: Provenance) -> str:
@@ -158,7 +158,7 @@ def with_air(base: Compensation, name: str, result: AirResult, provenance: Prove
         f" of {result.largest_pressure / BAR:.3f} bar"
     )
     sources = {source: _identified("Air of the caliper's module", provenance, fit)}
-    return _text(base, name, numbers, sources, provenance, _provenance("air", base, provenance, fit))
+    return _text(base, name, numbers, sources, provenance, "air", fit)
 
 
 def _line(line: FittedLine, source: str) -> Numbers:
@@ -210,7 +210,6 @@ def _with_source(quantity: Quantity) -> _Number:
 
 
 def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str]:
-    """The source of identified numbers."""
     text = (
         f"{subject} identified from {provenance.record} ({provenance.origin}; SHA-256 {provenance.digest})"
         f" by `{provenance.command}`; {fit}"
@@ -241,9 +240,10 @@ def _text(
     numbers: Numbers,
     sources: Mapping[str, Any],
     provenance: Provenance,
-    facts: Mapping[str, str],
+    subject: str,
+    fit: str,
 ) -> str:
-    """The file as YAML."""
+    facts = _provenance(subject, base, provenance, fit)
     described = {**{key: source.model_dump() for key, source in base.sources.items()}, **sources}
     if is_of_one_rig(facts) and provenance.rig:
         tolerances = load_compensation(_TOLERANCES_OF)
@@ -257,7 +257,7 @@ def _text(
         "title": base.title if name == base.name else f"Compensation {name}",
         "sources": {key: source for key, source in described.items() if key in used},
         **numbers,
-        "provenance": dict(facts),
+        "provenance": facts,
     }
     heading = (
         "# What stands in for a caliper: equations (4)-(8) of the source, our model of the air; identified.\n"

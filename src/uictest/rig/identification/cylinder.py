@@ -131,10 +131,7 @@ def assembled(poles: Poles, weights: Samples, step: float) -> TransferFunction:
 
 
 def identify_cylinder(
-    time: Samples,
-    tank_pressure: Samples,
-    cylinder_pressure: Samples,
-    held_out_share: float = 0.25,
+    time: Samples, tank_pressure: Samples, cylinder_pressure: Samples, held_out_share: float = 0.25
 ) -> CylinderResult:
     """Find the third-order transfer function at the record's sampling time.
 

@@ -201,7 +201,6 @@ def _error_function(segments: Sequence[FitSegment], step: float, weigh: Weigh, p
 
 
 def _local_minimum(error: ErrorFunction, start: Poles, evaluations: int, span: float) -> Poles:
-    """Return the poles at which the simplex of Nelder and Mead ends."""
     from scipy.optimize import minimize
 
     return np.asarray(
@@ -227,7 +226,6 @@ def bounded(poles: Poles, step: float) -> Poles:
 
 
 def _starts(longest: FitSegment, step: float, error: ErrorFunction) -> list[Poles]:
-    """Return the best points of a grid, and a linear start where there is one."""
     grid = [
         np.log([lag, 2.0 * damping * section, section * section])
         for lag in _TIME_CONSTANTS

@@ -6,7 +6,7 @@ and the compiled function, which wants arrays, follow the same description of it
 
 import hashlib
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,11 +73,11 @@ def at(layout: Any, *shape: int | Length) -> Any:
 
 def leaves(arguments: Arguments) -> Iterator[Any]:
     """Yield arguments, or what is given for them, with the members of tuples in place of the tuples."""
-    for each in arguments:
-        if isinstance(each, tuple):
-            yield from leaves(each)
+    for argument in arguments:
+        if isinstance(argument, tuple):
+            yield from leaves(argument)
         else:
-            yield each
+            yield argument
 
 
 def digest_of_layouts(arguments: Arguments) -> str:
@@ -134,12 +134,65 @@ def placed(arguments: Arguments, values: Arguments, *blocks: NDArray[Any]) -> It
     """
     numbers = passed(arguments, values)
     count = len(numbers) - sum(1 for _ in leaves(arguments))
-    sizes = [1 if isinstance(each, int) else each.nbytes for each in leaves(values)]
+    sizes = [1 if isinstance(value, int) else value.nbytes for value in leaves(values)]
     yield from ((0, number) for number in numbers[:count])
     for number, argument, size in zip(numbers[count:], leaves(arguments), sizes, strict=True):
         if argument is int or size == 0:
             yield 0, number if argument is int else 0
             continue
-        places = [number - int(block.__array_interface__["data"][0]) for block in blocks]
-        [block] = [n for n, place in enumerate(places) if 0 <= place <= blocks[n].nbytes - size]
-        yield block + 1, places[block]
+        offsets = [number - int(block.__array_interface__["data"][0]) for block in blocks]
+        [block] = [n for n, offset in enumerate(offsets) if 0 <= offset <= blocks[n].nbytes - size]
+        yield block + 1, offsets[block]
+
+
+CACHE_LINE = 64
+"""Bytes; no vector of a block then lies across two cache lines."""
+
+
+def block(layout: np.dtype[Any], width: int, count: int = 1) -> NDArray[Any]:
+    """Return ``count`` zeroed records of ``width`` lanes each.
+
+    Args:
+        layout: structured type of one record; every number takes eight bytes (``f8`` or ``i8``). Fields of
+            several numbers are left out: tables are for scalar code.
+        width: number of lanes.
+        count: number of records, such as the four wheelsets of a car.
+
+    Returns:
+        Structured array of shape (count,). Its fields have the names of ``layout`` and hold one number for
+        each lane, side by side, so that a field is read into a register at once.
+    """
+    size = count * block_layout(layout, width).itemsize
+    memory = np.zeros(size + CACHE_LINE, np.uint8)
+    start = -memory.ctypes.data % CACHE_LINE
+    return memory[start : start + size].view(block_layout(layout, width))
+
+
+def block_layout(layout: np.dtype[Any], width: int) -> np.dtype[Any]:
+    """Return the layout of a record of a block."""
+    names = [name for name in layout.names or () if not layout[name].shape]
+    return np.dtype([(name, layout[name], (width,)) for name in names])
+
+
+def vectors(block: Any) -> Any:
+    """Records of a block with all lanes at once as attributes; ``[i]`` gives the i-th."""
+    _compiled_only()
+
+
+def lane(block: Any, number: int) -> Any:
+    """Records of a block as lane ``number`` holds them, numbers as attributes; ``[i]`` gives the i-th."""
+    _compiled_only()
+
+
+def copy_to_lane(place: Any, record: Any) -> None:
+    """Set every field of one lane's record to that of an ordinary record, which must have them all."""
+    _compiled_only()
+
+
+def copy_from_lane(record: Any, place: Any) -> None:
+    """Set those fields of an ordinary record that one lane's record has; it must have them all."""
+    _compiled_only()
+
+
+def _compiled_only() -> NoReturn:
+    raise TypeError("the code of lanes runs compiled only; the model of one stop also runs in plain Python")

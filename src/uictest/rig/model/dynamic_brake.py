@@ -39,19 +39,22 @@ def start_dynamic_brake(wheelset: Wheelset, number: int, p: Parameters) -> None:
 def demand_dynamic_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Divide the force that the command asks for between both brakes, for the coming cycle; scalar code."""
     if p.controller_contract == 1:
-        _drop_if_wheels_slide(car, wheelsets)
+        for i in range(4):
+            if wheelsets[i].valve_command != FILL:
+                car.dynamic_dropped = 1.0
     pressure = demanded_pressure(
         car.time, car.demand_start, car.demand_change, car.demand_begins, car.demand_rate
     )
     excess = maximum(pressure - p.zero_force_pressure, 0.0)
     wanted = p.force_per_pressure * excess
     available = 0.0
-    given = 0.0
+    total = 0.0
     for i in range(4):
-        force = _force_at_train_speed(wheelsets[i], car, p)
+        motor = wheelsets[i].motor_force, wheelsets[i].motor_power, p.fade_end, p.fade_rate
+        force = dynamic_force(maximum(car.speed, 0.0), *motor)
         available += (1.0 - car.dynamic_dropped) * (1.0 - car.dynamic_failed) * force
-        given += wheelsets[i].motor_effort * force
-    car.blended_share = clamp(given / wanted, 0.0, 1.0) if wanted > 0.0 else 0.0
+        total += wheelsets[i].motor_effort * force
+    car.blended_share = clamp(total / wanted, 0.0, 1.0) if wanted > 0.0 else 0.0
     of_friction = (1.0 - car.blended_share) * excess
     _watch_calipers(car, wheelsets, of_friction, _BAND * excess, p)
     if excess > 0.0 and car.relieved > 0.0:
@@ -60,7 +63,11 @@ def demand_dynamic_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters)
     if available > 0.0:
         request = 1.0 if wanted >= available else wanted / available
     for i in range(4):
-        _follow(wheelsets[i], car, request, p)
+        wheelset = wheelsets[i]
+        wanted_effort = request * (1.0 - wheelset.dynamic_reduction)
+        effort = wheelset.motor_effort + p.motor_response * (wanted_effort - wheelset.motor_effort)
+        wheelset.motor_effort = (1.0 - car.dynamic_failed) * effort
+        wheelset.dynamic_brake = wheelset.motor_effort if wheelset.motor_force > 0.0 else 0.0
 
 
 def _watch_calipers(
@@ -80,32 +87,11 @@ def _watch_calipers(
         car.relieved = 1.0 if surplus > 0.0 else 0.0
 
 
-def _drop_if_wheels_slide(car: Car, wheelsets: Sequence[Wheelset]) -> None:
-    for i in range(4):
-        if wheelsets[i].valve_command != FILL:
-            car.dynamic_dropped = 1.0
-
-
-def _force_at_train_speed(wheelset: Wheelset, car: Car, p: Parameters) -> float:
-    speed = maximum(car.speed, 0.0)
-    return dynamic_force(speed, wheelset.motor_force, wheelset.motor_power, p.fade_end, p.fade_rate)
-
-
-def _follow(wheelset: Wheelset, car: Car, request: float, p: Parameters) -> None:
-    """Let the effort of a motor follow what is asked of it; a failed one gives nothing at once."""
-    wanted = request * (1.0 - wheelset.dynamic_reduction)
-    effort = wheelset.motor_effort + p.motor_response * (wanted - wheelset.motor_effort)
-    wheelset.motor_effort = (1.0 - car.dynamic_failed) * effort
-    wheelset.dynamic_brake = wheelset.motor_effort if wheelset.motor_force > 0.0 else 0.0
-
-
 def brake_dynamically(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Set the torque of the dynamic brake on each wheelset for one step, from its own rotation; in lanes."""
     for i in range(4):
-        _brake_wheelset(wheelsets[i], p)
-
-
-def _brake_wheelset(wheelset: Wheelset, p: Parameters) -> None:
-    rim_speed = abs(wheelset.rotation) * wheelset.wheel_radius
-    largest = dynamic_force(rim_speed, wheelset.motor_force, wheelset.motor_power, p.fade_end, p.fade_rate)
-    wheelset.dynamic_torque = wheelset.motor_effort * wheelset.wheel_radius * largest
+        wheelset = wheelsets[i]
+        rim_speed = abs(wheelset.rotation) * wheelset.wheel_radius
+        motor = wheelset.motor_force, wheelset.motor_power, p.fade_end, p.fade_rate
+        largest = dynamic_force(rim_speed, *motor)
+        wheelset.dynamic_torque = wheelset.motor_effort * wheelset.wheel_radius * largest

@@ -8,11 +8,10 @@ only in stops with such a fault.
 from collections.abc import Sequence
 
 from uictest.core.physics import FILL, air_changes, clamp, coldness, enthalpy, fma, maximum, minimum, uniform
-from uictest.rig.model.cycle import CHANNELS, noise_words
-from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.cycle import CHANNELS, is_active, noise_words
+from uictest.rig.model.parameters import Parameters, WheelsetParameters
 from uictest.rig.model.pneumatics import module_volume, orifice
 from uictest.rig.model.state import Car, Wheelset
-from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
 _FAULT = 4
 """Noise channel of a wheelset for the random errors of a faulty speed sensor."""
@@ -36,11 +35,6 @@ def update_faults(
             _act(wheelsets[int(p.fault_wheelset[k])], p, k)
 
 
-def is_active(car: Car, k: int) -> bool:
-    """Return whether fault ``k`` is active in this cycle."""
-    return ((car.active_faults >> k) & 1) == 1
-
-
 def _decide_activity(car: Car, p: Parameters) -> None:
     """Begin and end faults; what has begun goes on although the train should gain speed again."""
     for k in range(p.fault_count):
@@ -59,16 +53,15 @@ def _decide_activity(car: Car, p: Parameters) -> None:
     car.active_faults = car.begun_faults & ~car.ended_faults
 
 
-def _make_sound(wheelset: Wheelset, own: WheelsetParameters) -> None:
-    """Give a wheelset what it has without faults."""
+def _make_sound(wheelset: Wheelset, parameters: WheelsetParameters) -> None:
     wheelset.speed_valid = 1
     wheelset.speed_held = 0.0
     wheelset.pressure_held = 0.0
     wheelset.speed_sensor_faulty = 0.0
     wheelset.tank_leak = 0.0
     wheelset.sander_blocked = 0.0
-    wheelset.missing_teeth = own.missing_teeth
-    wheelset.valve_travel_per_step = own.valve_travel_per_step
+    wheelset.missing_teeth = parameters.missing_teeth
+    wheelset.valve_travel_per_step = parameters.valve_travel_per_step
 
 
 def _act(wheelset: Wheelset, p: Parameters, k: int) -> None:
@@ -213,13 +206,7 @@ def _leak_from_line(car: Car, p: Parameters) -> None:
 
 
 def _changes(
-    pressure: float,
-    temperature: float,
-    mass: float,
-    leaked: float,
-    lost: float,
-    volume: float,
-    p: Parameters,
+    pressure: float, temperature: float, mass: float, leaked: float, lost: float, volume: float, p: Parameters
 ) -> tuple[float, float]:
     """Changes of temperature and pressure of air in a fixed volume that loses so many kg and J."""
     return air_changes(

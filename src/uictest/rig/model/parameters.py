@@ -1,9 +1,9 @@
 """Parameters: the numbers that a case fixes, each declared once; those of a wheelset stand apart.
 
-:func:`~uictest.core.record.from_scenario` names the key of the scenario whose value the field holds; what is
-:func:`~uictest.core.record.derived` is computed in :mod:`uictest.rig.derived_parameters`. What may differ
-from wheelset to wheelset is in :mod:`uictest.rig.model.wheelset_parameters`. SI units; pressures are absolute
-unless named gauge. The order of fields carries no meaning.
+:func:`~uictest.core.record.from_scenario` names the key of the scenario whose value the field holds, for a
+wheelset as :func:`uictest.plans.scenario.wheelset_value` does; what is :func:`~uictest.core.record.derived`
+is computed by :mod:`uictest.rig.assembly` and the assemblies beside it. Tables are read by scalar code alone.
+SI units; pressures are absolute unless named gauge. The order of fields carries no meaning.
 """
 
 from collections.abc import MutableSequence
@@ -11,14 +11,139 @@ from typing import Annotated
 
 from uictest.controllers import CONTROLLERS, ControllerCycle
 from uictest.core.measures import MeasureDefinition
-from uictest.core.physics import MOST_PAD_POINTS
+from uictest.core.physics import MOST_COMMANDS, MOST_PAD_POINTS, MOST_SAND_POINTS
 from uictest.core.rail_laws import MOST_NUMBERS
-from uictest.core.record import derived, from_scenario, layout_of
-from uictest.rig.model.command_tables import CommandTables
-from uictest.rig.model.fault_tables import FaultTables
-from uictest.rig.model.sand_tables import SandTables
-from uictest.rig.model.track_brake_numbers import TrackBrakeNumbers
-from uictest.rig.model.train_sensor_numbers import TrainSensor
+from uictest.core.record import FieldCopier, Record, derived, from_scenario, layout_of
+from uictest.plans.faults import MOST_FAULTS
+
+CommandTable = Annotated[MutableSequence[float], MOST_COMMANDS]
+
+
+class CommandTables(Record):
+    """Fields of the parameter record that say what happens when."""
+
+    # all commands, the first included, by when they take effect: rig.model.pneumatics
+    first_command: float = derived()  # share of full service
+    command_count: int = derived()
+    command_given: CommandTable = derived()  # when each is given, s
+    command_shares: CommandTable = derived()  # of full service
+    command_times: CommandTable = derived()  # when each takes effect, s
+    command_pressures: CommandTable = derived()  # gauge, Pa
+    command_rates: CommandTable = derived()  # with which pressure then rises, Pa/s
+    release_rates: CommandTable = derived()  # with which it falls, Pa/s
+    drag_duration: float = derived()  # for which traction holds drag_speed, s; 0: it does not
+    drag_speed: float = derived()  # m/s
+    end_speed: float = derived()  # at which the stop ends, m/s; 0: at standstill
+
+
+FaultTable = Annotated[MutableSequence[float], MOST_FAULTS]
+
+
+class FaultTables(Record):
+    """The faults of a stop, in the order of the scenario; effects as in :class:`.Effects`."""
+
+    fault_count: int = derived()
+    has_leaks: float = derived()  # 0 or 1: a fault is a leak
+    # it begins once all of these hold, and ends once the second three do
+    fault_begin_time: FaultTable = derived()  # time since the command of at least, s
+    fault_begin_speed: FaultTable = derived()  # train speed of at most, m/s
+    fault_begin_distance: FaultTable = derived()  # distance since the command of at least, m
+    fault_end_time: FaultTable = derived()
+    fault_end_speed: FaultTable = derived()
+    fault_end_distance: FaultTable = derived()
+    # whose it is
+    fault_wheelset: FaultTable = derived()  # 0 to 3
+    fault_of_wheelset: FaultTable = derived()  # 0 where it is one of the train
+    fault_of_speed_sensor: FaultTable = derived()  # 0 or 1
+    fault_report_required: FaultTable = derived()  # 0 or 1
+    # what it changes
+    fault_speed_valid: FaultTable = derived()
+    fault_speed_held: FaultTable = derived()
+    fault_speed_factor: FaultTable = derived()
+    fault_speed_offset: FaultTable = derived()  # m/s
+    fault_speed_jump: FaultTable = derived()  # m/s
+    fault_drop_out: FaultTable = derived()
+    fault_lost_teeth: FaultTable = derived()
+    fault_fill_at_least: FaultTable = derived()
+    fault_fill_at_most: FaultTable = derived()
+    fault_vent_at_least: FaultTable = derived()
+    fault_vent_at_most: FaultTable = derived()
+    fault_travel_per_step: FaultTable = derived()  # largest change of an opening in a step
+    fault_tank_leak: FaultTable = derived()  # m3/(s Pa)
+    fault_line_leak: FaultTable = derived()  # m3/(s Pa)
+    fault_pressure_held: FaultTable = derived()
+    fault_pressure_factor: FaultTable = derived()
+    fault_pressure_offset: FaultTable = derived()  # Pa
+    fault_silent: FaultTable = derived()
+    fault_dynamic_failed: FaultTable = derived()  # 0 or 1
+    fault_track_failed: FaultTable = derived()  # 0 or 1
+    fault_sander_blocked: FaultTable = derived()  # 0 or 1
+    fault_train_speed_valid: FaultTable = derived()
+    fault_train_speed_held: FaultTable = derived()
+    fault_train_speed_factor: FaultTable = derived()
+    fault_train_speed_offset: FaultTable = derived()  # m/s
+    fault_release_cycles: FaultTable = derived()  # controller cycles of silence after which the valves fill
+
+
+SanderTable = Annotated[MutableSequence[float], 4]
+"""A number for the sander of each wheelset; zero where there is none."""
+SandTable = Annotated[MutableSequence[float], MOST_SAND_POINTS]
+
+
+class SandTables(Record):
+    """Fields of the parameter record that :mod:`uictest.rig.model.sand` reads; all zero without sanders."""
+
+    has_sanders: float = derived()  # 0 or 1; in a train 1 in every car if one has a sander
+    sander_rates: SanderTable = derived()  # largest, kg/s
+    sander_densities: SanderTable = derived()  # largest, kg/m; infinite: the rate alone counts
+    sander_distances: SanderTable = derived()  # of the nozzle ahead of the wheelset, m
+    sander_delays: SanderTable = derived()  # controller cycles from the demand to sand on the rail
+    sander_off_speeds: SanderTable = derived()  # train speed below which none is demanded, m/s
+    # what demands sand: 0 or 1
+    sanders_always: SanderTable = derived()
+    sanders_on_slide: SanderTable = derived()
+    sanders_on_request: SanderTable = derived()
+    sander_slide_cycles: SanderTable = derived()  # of a WSP that acts, after which wheels slide
+    sander_run_on_cycles: SanderTable = derived()  # of a WSP that rests, after which they do no more
+    # on the rail
+    sand_points_per_metre: float = derived()  # grid, 1/m
+    sand_kept: float = derived()  # share that a wheelset leaves
+    sand_friction: float = derived()  # initial friction coefficient with enough sand
+    sand_points: int = derived()  # of the table
+    sand_densities: SandTable = derived()  # kg/m
+    sand_shares: SandTable = derived()  # of the way to the friction with enough sand
+
+
+class TrackBrakeNumbers(Record):
+    """What a case fixes of the track brake: :mod:`uictest.core.physics.brakes`."""
+
+    has_track_brake: float = derived()  # 0 or 1
+    magnet_attraction: float = derived()  # of the magnets of one bogie together, N
+    magnet_friction: float = derived()  # at high speed
+    magnet_numerator: float = derived()  # m/s
+    magnet_denominator: float = derived()  # m/s
+    magnet_slowest: float = derived()  # speed below which friction goes to zero, m/s
+    magnet_cleaning: float = derived()  # share of the work that cleans the rail
+    magnet_change: float = derived()  # largest change of the share of the attraction in a controller cycle
+    track_brake_commands: CommandTable = derived()  # 1 for each command with which it may act
+    track_brake_first: float = derived()  # when the first command is given, s
+    track_brake_requested: float = derived()  # 1: only while the controller asks for it
+    track_brake_delay: float = derived()  # from command or request until the attraction rises, s
+    track_brake_off_speed: float = derived()  # at and below which it is off, m/s; 0: never
+
+
+class TrainSensor(Record):
+    """What a case fixes of them: :mod:`uictest.rig.model.cycle`."""
+
+    has_train_speed: float = derived()  # 0 or 1; where 0, the next four are zero
+    train_speed_period: int = derived()  # controller cycles
+    train_speed_delay: int = derived()  # controller cycles
+    train_speed_noise: float = derived()  # m/s
+    train_speed_gain_error: float = derived()
+    has_accelerometer: float = derived()  # 0 or 1; where 0, the next two are zero
+    accelerometer_noise: float = derived()  # m/s2
+    accelerometer_offset: float = derived()  # m/s2
+
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
 MotorTable = Annotated[MutableSequence[float], 4]
@@ -46,7 +171,7 @@ class Parameters(
     cycles: int = derived()  # longest stop, in controller cycles
     # keys of the noise
     seed: int = from_scenario("seed")
-    noise_key: int = derived()  # rig.single_stop
+    noise_key: int = derived()  # rig.train_stop
     # command and topology
     initial_speed: float = from_scenario("initial_speed")  # m/s
     calipers: int = derived()  # modules with a real caliper: 1 or 4
@@ -61,7 +186,7 @@ class Parameters(
     controller_step: int = derived()
     controller_handle: int = derived()
     controller_exchange: int = derived()
-    # dynamic brake: physics.dynamic_brake; all zero without one
+    # dynamic brake: physics.brakes; all zero without one
     has_dynamic_brake: float = derived()  # 0 or 1
     motor_forces: MotorTable = derived()  # of each wheelset, N
     motor_powers: MotorTable = derived()  # W
@@ -169,7 +294,7 @@ class Parameters(
     pad_temperatures: PadTable = derived()
     pad_temperature_factors: PadTable = derived()
     pad_temperature_points: int = derived()
-    # temperature of the discs of a wheelset in a controller cycle: physics.disc_brake
+    # temperature of the discs of a wheelset in a controller cycle: physics.brakes
     models_disc_temperature: float = derived()  # 0 or 1; where 0, all of the following but one are zero
     initial_disc_temperature: float = derived()  # K
     disc_heat_capacity: float = derived()  # J/K
@@ -240,7 +365,7 @@ class Parameters(
     creep_stiffness: float = derived()  # (1/4) G pi a b c11 at the reference load, N
     reference_load: float = from_scenario("rail.condition.contact.reference_wheel_load")  # N
     load_scale: float = from_scenario("rail.condition.contact.reference_wheel_load", inverse)  # 1/N
-    # largest creep force: physics.polach
+    # largest creep force: physics.rail
     highest_creep_scale: float = derived()  # s/m
     highest_creep_0: float = derived()
     highest_creep_1: float = derived()
@@ -252,7 +377,7 @@ class Parameters(
     highest_creep_7: float = derived()
     friction_points: int = derived()  # points of the friction along the track
     friction_times: int = derived()  # points of its factor over time
-    # friction that varies at random along the track: rig.model.random_rail
+    # friction that varies at random along the track: rig.model.rail
     varies_friction: float = derived()  # 0 or 1; where 0, all of the following are zero
     variation_points_per_metre: float = derived()
     variation_persistence: float = derived()  # correlation of two neighbouring points
@@ -296,3 +421,53 @@ class Parameters(
 
 PARAMETERS = layout_of(Parameters, *(controller.parameters for controller in CONTROLLERS.values()))
 """Layout of :class:`Parameters` and of the parameters of every controller."""
+
+
+class WheelsetParameters(Record):
+    """What a case fixes for one wheelset, its brake and its sensors."""
+
+    # wheel
+    wheel_radius: float = from_scenario("wheel_radius")  # at which it rolls, m
+    configured_radius: float = from_scenario("configured_radius")  # of which the WSP was told, m
+    rotational_inertia: float = from_scenario("rotational_inertia")  # with what it drives, kg m2
+    inertia_response: float = derived()  # step over that, s/(kg m2)
+    inertia_stiffness: float = derived()  # its inverse
+    slip_response: float = derived()  # change of slip speed in a step per creep force, m/(s N)
+    slip_stiffness: float = derived()  # its inverse
+    # disc brake
+    brake_force: float = from_scenario("brake_force")  # share of the regular torque
+    reference_pad_friction: float = from_scenario("pad_friction")  # where the factors of the pads are 1
+    # caliper
+    coulomb_friction: float = from_scenario("caliper.coulomb_friction")  # N
+    squeezing_stiffness: float = derived()  # this and the next three: physics.caliper.stiffnesses
+    releasing_stiffness: float = derived()
+    squeezing_compliance: float = derived()
+    releasing_compliance: float = derived()
+    # WSP valve
+    fill_conductance: float = from_scenario("wsp_valve.fill_conductance")  # m3/(s Pa)
+    vent_conductance: float = from_scenario("wsp_valve.vent_conductance")  # m3/(s Pa)
+    valve_travel_per_step: float = derived()  # share of full opening
+    valve_delay_cycles: int = derived()  # whole controller cycles of the switching delay
+    valve_delay_steps: float = derived()  # and the steps that remain of it
+    # sensors
+    tooth_pitch: float = derived()  # at the tread of a wheel of the configured radius, m
+    timer_resolution: float = from_scenario("sensors.speed.timer_resolution")  # s
+    slowest_measured_speed: float = from_scenario("sensors.speed.minimum_speed")  # m/s
+    speed_noise: float = from_scenario("sensors.speed.noise")  # share of the reading
+    speed_gain_error: float = from_scenario("sensors.speed.gain_error")
+    counts_teeth: float = derived()  # 0 or 1: the speed is that of the last whole teeth
+    teeth: float = from_scenario("sensors.speed.teeth")  # of the pole wheel, missing ones included
+    missing_teeth: float = from_scenario("sensors.speed.missing_teeth")  # in one gap
+    eccentricity: float = from_scenario("sensors.speed.eccentricity")  # relative error of the speed
+    pressure_gain_error: float = from_scenario("sensors.pressure.gain_error")
+    pressure_offset: float = from_scenario("sensors.pressure.offset")  # Pa
+    pressure_noise: float = from_scenario("sensors.pressure.noise")  # Pa
+    loadcell_gain_error: float = from_scenario("sensors.loadcell.gain_error")
+    loadcell_offset: float = from_scenario("sensors.loadcell.offset")  # N
+    loadcell_noise: float = from_scenario("sensors.loadcell.noise")  # N
+
+
+WHEELSET_PARAMETERS = layout_of(WheelsetParameters)
+"""Layout of :class:`WheelsetParameters`."""
+copy_wheelset_parameters = FieldCopier(WheelsetParameters)
+"""Set the parameters in the first of two records to those of the second."""

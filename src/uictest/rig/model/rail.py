@@ -1,4 +1,4 @@
-"""The rail: its friction as found, and what it remembers of the wheelsets that have passed.
+"""The rail: its friction as found and at random, and what it remembers of the wheelsets that have passed.
 
 The friction coefficient as found is linear between places, its factor is linear between times; both lie in
 an array whose rows are used up to their number of points.
@@ -16,12 +16,15 @@ from collections.abc import MutableSequence, Sequence
 from typing import Annotated, Any, Final
 
 from uictest.core.physics import (
+    bell,
     cleaned_friction,
     contact_stiffness,
     creep_force,
     floor,
+    log_normal_factor,
     maximum,
     share_left_behind,
+    threefry,
 )
 from uictest.core.rail_laws import clean_part, own_share
 from uictest.core.record import Record, layout_of
@@ -100,12 +103,14 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
     for i in range(_WHEELSETS):
         wheelset = wheelsets[i]
         if distance > 0.0:
-            _slide_on(wheelset, distance, p, memory, i)
-        place = (car.position - wheelset.behind) * p.rail_points_per_metre
-        left = share_left_behind(memory.cleaned[i], share_at(place, memory, i), p.carry_over)
+            loss = wheelset.contact_loss - memory.loss[i]
+            memory.cleaned[i] = own_share(memory.cleaned[i], loss, distance, p)
+            memory.loss[i] = wheelset.contact_loss
+        end = (car.position - wheelset.behind) * p.rail_points_per_metre
+        left = share_left_behind(memory.cleaned[i], value_at(end, memory.points, i), p.carry_over)
         if i < _WHEELSETS - 1:
             start = (memory.position - wheelset.behind) * p.rail_points_per_metre
-            write_passed(memory, i + 1, start, place, memory.left[i], left)
+            write_passed(memory, i + 1, start, end, memory.left[i], left)
         memory.left[i] = left
         wheelset.cleaned_share = clean_part(left, p)
         wheelset.friction = cleaned_friction(wheelset.friction, wheelset.cleaned_share, p.recovered_friction)
@@ -123,8 +128,8 @@ def hand_rail_on(last: Wheelset, p: Parameters, memory: RailMemory, behind: Rail
         behind: of the rail under the next car.
     """
     start = (memory.passed - last.behind) * p.rail_points_per_metre
-    place = (memory.position - last.behind) * p.rail_points_per_metre
-    write_passed(behind, 0, start, place, memory.passed_left, memory.left[_WHEELSETS - 1])
+    end = (memory.position - last.behind) * p.rail_points_per_metre
+    write_passed(behind, 0, start, end, memory.passed_left, memory.left[_WHEELSETS - 1])
 
 
 def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:
@@ -138,18 +143,11 @@ def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:
     wheelset.reduction_slip = p.reduction_slip + share * (p.clean_reduction_slip - p.reduction_slip)
 
 
-def _slide_on(wheelset: Wheelset, distance: float, p: Parameters, memory: RailMemory, i: int) -> None:
-    """Let wheelset ``i`` itself clean the stretch of track that it has passed since the last cycle."""
-    loss = wheelset.contact_loss - memory.loss[i]
-    memory.cleaned[i] = own_share(memory.cleaned[i], loss, distance, p)
-    memory.loss[i] = wheelset.contact_loss
-
-
-def share_at(place: float, memory: RailMemory, ring: int) -> float:
-    """Return what the wheelset before has left at a place, in units of the grid; linear between points."""
-    point = floor(place)
-    here = memory.points[in_ring(int(point), ring)]
-    return here + (place - point) * (memory.points[in_ring(int(point) + 1, ring)] - here)
+def value_at(position: float, points: Sequence[float], ring: int) -> float:
+    """Return what lies before a wheelset at a place, in units of the grid; linear between points."""
+    point = floor(position)
+    at_point = points[in_ring(int(point), ring)]
+    return at_point + (position - point) * (points[in_ring(int(point) + 1, ring)] - at_point)
 
 
 def write_passed(
@@ -167,9 +165,9 @@ def clean_passed(
     """Add at the points that magnets have passed what they clean, linear between both shares."""
     for point in range(int(floor(start)) + 1, int(floor(end)) + 1):
         part = (point - start) / (end - start)
-        own = share_before + part * (share - share_before)
-        place = in_ring(point, ring)
-        memory.points[place] = share_left_behind(own, memory.points[place], 1.0)
+        cleaned = share_before + part * (share - share_before)
+        slot = in_ring(point, ring)
+        memory.points[slot] = share_left_behind(cleaned, memory.points[slot], 1.0)
 
 
 def in_ring(point: int, ring: int) -> int:
@@ -245,3 +243,59 @@ def keep(wheelsets: Sequence[Wheelset], met: Any, k: int) -> None:
     for i in range(_WHEELSETS):
         met[k, i].friction = wheelsets[i].friction
         met[k, i].cleaned_share = wheelsets[i].cleaned_share
+
+
+FAR_BEHIND = 1000.0
+"""Distance from the first point to the first wheelset at the brake command, m; chosen: no train is longer."""
+RAIL_KEY = 0x7261696C
+"""Key that stands where sensors have that of their case."""
+_CHANNEL = 1 << 31
+"""Noise channel above those of all sensors."""
+
+
+def vary_friction(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Multiply the friction under each wheelset, that of the rail as found, by its random factor.
+
+    At points D apart, counted from a fixed place far behind, a deviation follows
+
+        z[k+1] = rho z[k] + sqrt(1 - rho^2) xi[k+1],    rho = exp(-D / l)
+
+    and the factor there is exp(s z - s^2 / 2), log-normal with mean 1 and linear between points. xi[k]
+    depends on the seed and on k alone: whoever comes to a place under a seed meets the same friction there,
+    whatever its train, command, controller and sensors. A wheelset has one slip, so it meets the mean of both
+    rails. Each has the spread sigma, so that of the mean is sigma sqrt((1 + correlation) / 2), and
+    s^2 = ln(1 + that^2). A wheelset draws only where it passes a point.
+    """
+    for i in range(4):
+        wheelset = wheelsets[i]
+        position = maximum(car.position - wheelset.behind + FAR_BEHIND, 0.0) * p.variation_points_per_metre
+        follow_rail(wheelset, position, car.cycle == 0, p)
+        change = wheelset.next_rail_factor - wheelset.rail_factor
+        wheelset.friction *= wheelset.rail_factor + (position - wheelset.rail_point) * change
+
+
+def follow_rail(wheelset: Wheelset, position: float, begins: bool, p: Parameters) -> None:
+    """Let a wheelset pass all points up to a place, counted in points; at the start, from the first one."""
+    passed = floor(position)
+    if begins:
+        wheelset.rail_point = -1.0
+        wheelset.rail_deviation = innovation(p, 0)
+        while wheelset.rail_point < passed - 1.0:  # nothing is needed of the points so far behind
+            _pass_point(wheelset, p)
+        wheelset.next_rail_factor = log_normal_factor(wheelset.rail_deviation, p.variation_log_spread)
+    while wheelset.rail_point < passed:
+        _pass_point(wheelset, p)
+        wheelset.rail_factor = wheelset.next_rail_factor
+        wheelset.next_rail_factor = log_normal_factor(wheelset.rail_deviation, p.variation_log_spread)
+
+
+def _pass_point(wheelset: Wheelset, p: Parameters) -> None:
+    wheelset.rail_point += 1.0
+    drawn = innovation(p, int(wheelset.rail_point) + 1)
+    wheelset.rail_deviation = p.variation_persistence * wheelset.rail_deviation + p.variation_renewal * drawn
+
+
+def innovation(p: Parameters, point: int) -> float:
+    """Return xi, of mean 0 and variance 1, for a point of the track under a seed."""
+    word_0, word_1 = threefry(p.seed, RAIL_KEY, point, _CHANNEL)
+    return bell(word_0, word_1)

@@ -4,11 +4,9 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from uictest.core.measures import StopMeasures, WheelsetMeasures
-from uictest.rig.model.couplers import Coupler
-from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.parameters import Parameters, WheelsetParameters
 from uictest.rig.model.rail import RailMemory
-from uictest.rig.model.state import Bogie, Car, Wheelset
-from uictest.rig.model.wheelset_parameters import WheelsetParameters
+from uictest.rig.model.state import Bogie, Car, Coupler, Wheelset
 
 
 class CarRecords(NamedTuple):

@@ -20,20 +20,21 @@ from uictest.core.physics import (
     running_resistance,
     torque,
 )
-from uictest.rig.model.brake_command import follow_commands
 from uictest.rig.model.cycle import start_cycle
-from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.parameters import Parameters, WheelsetParameters
+from uictest.rig.model.pneumatics import follow_commands
 from uictest.rig.model.rail import RailMemory, clean_rail, forget_rail
-from uictest.rig.model.start import start
 from uictest.rig.model.state import Bogie, Car, Wheelset
-from uictest.rig.model.wheelset_parameters import WheelsetParameters
+from uictest.rig.model.stop import start
 
 _WHEELS = 2.0
 _INFINITE = float("inf")
+_COARSE, _FINE = 0.05, 0.005
+"""s, of the steps that find the best slide, and of those that give its distance: within 0.3 %; chosen."""
 
 
-def keep_slide_to_end(
-    car: Car,
+def find_reference(
+    cars: Sequence[Car],
     bogies: Sequence[Bogie],
     wheelsets: Sequence[Wheelset],
     p: Parameters,
@@ -41,63 +42,93 @@ def keep_slide_to_end(
     rail: Any,
     memory: RailMemory,
     measures: StopMeasures,
-    numbers: Sequence[float],
-) -> int:
-    """Set ``measures.reference_distance`` to the distance at a slide, m, infinite without standstill.
+    slides: Sequence[float],
+) -> None:
+    """Set ``measures.reference_distance`` to the distance at the best of the slides, m.
 
-    ``numbers`` are the slide and the step of the integration, s. All records are zeroed, ``rail`` as in
-    :mod:`uictest.rig.model.rail`. Returns the number of steps.
+    It is infinite if no slide stops the train. All records are zeroed; there are cars, with their bogies and
+    wheelsets, for one stop more than slides, which ascend. ``rail`` is as in :mod:`uictest.rig.model.rail`.
     """
-    slide, step = numbers[0], numbers[1]
-    start(car, bogies, wheelsets, p, wheelset_parameters)
+    last = len(slides)
+    for k in range(last + 1):
+        start(cars[k], bogies[2 * k : 2 * k + 2], wheelsets[4 * k : 4 * k + 4], p, wheelset_parameters)
+    shortest, best = _INFINITE, last - 1
+    for k in range(last):
+        given = cars[k], wheelsets[4 * k : 4 * k + 4], p, rail, memory, measures
+        distance = _stopping_distance(slides[k], _COARSE, shortest, *given)
+        if distance <= shortest:
+            shortest, best = distance, k
+    given = cars[last], wheelsets[4 * last : 4 * last + 4], p, rail, memory, measures
+    measures.reference_distance = _stopping_distance(slides[best], _FINE, _INFINITE, *given)
+
+
+def _stopping_distance(
+    slide: float,
+    step: float,
+    limit: float,
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
+    rail: Any,
+    memory: RailMemory,
+    measures: StopMeasures,
+) -> float:
+    """Return the distance of a stop at a slide, m, infinite without standstill before the limit."""
     if p.cleans_rail > 0.0:
         forget_rail(memory, p)
-    measures.reference_distance = _INFINITE
+    stiffness = contact_stiffness(p.creep_stiffness, p.static_wheel_load * p.load_scale)
     deceleration = 0.0
-    while car.time < p.cycles * p.cycle_time:
+    while car.time < p.cycles * p.cycle_time and car.position <= limit:
         if p.command_count > 1:
             follow_commands(car, measures, p)
         start_cycle(car, wheelsets, p, rail)
         if p.cleans_rail > 0.0:
             clean_rail(car, wheelsets, p, memory)
-        force = _force_of_rail(slide, step, deceleration, car, wheelsets, p)
+        force = _force_of_rail(slide, step, deceleration, stiffness, car, wheelsets, p)
         force += running_resistance(
             car.speed, p.resistance_constant, p.resistance_linear, p.resistance_quadratic
         )
         deceleration = (force + gradient_force(p.total_mass, p.gradient, p.gravity)) / p.total_mass
         if step * deceleration >= car.speed:
-            measures.reference_distance = car.position + 0.5 * car.speed * car.speed / deceleration
-            break
+            return car.position + 0.5 * car.speed * car.speed / deceleration
         car.position += step * (car.speed - 0.5 * step * deceleration)
         car.speed -= step * deceleration
         car.time += step
         car.cycle += 1
-    return car.cycle
+    return _INFINITE
 
 
 def _force_of_rail(
-    slide: float, step: float, deceleration: float, car: Car, wheelsets: Sequence[Wheelset], p: Parameters
+    slide: float,
+    step: float,
+    deceleration: float,
+    stiffness: float,
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
 ) -> float:
     """Let the wheelsets slide for a step, or roll where the brake is weaker; return the force on all, N."""
     car.command_pressure = demanded_pressure(
         car.time, car.demand_start, car.demand_change, car.demand_begins, car.demand_rate
     )
-    stiffness = contact_stiffness(p.creep_stiffness, p.static_wheel_load * p.load_scale)
-    total = 0.0
+    total, sliding, friction, cleaned = 0.0, 0.0, -1.0, -1.0
     for i in range(4):
         wheelset = wheelsets[i]
-        of_wheel, _ = creep_force(
-            slide * car.speed,
-            car.speed,
-            p.static_wheel_load,
-            stiffness,
-            wheelset.friction,
-            wheelset.friction_ratio,
-            wheelset.friction_decay,
-            wheelset.reduction_adhesion,
-            wheelset.reduction_slip,
-        )
-        sliding, rolling = _WHEELS * of_wheel, _force_of_brake(wheelset, car, deceleration, p)
+        if wheelset.friction != friction or wheelset.cleaned_share != cleaned:  # most rails are even
+            friction, cleaned = wheelset.friction, wheelset.cleaned_share
+            of_wheel, _ = creep_force(
+                slide * car.speed,
+                car.speed,
+                p.static_wheel_load,
+                stiffness,
+                friction,
+                wheelset.friction_ratio,
+                wheelset.friction_decay,
+                wheelset.reduction_adhesion,
+                wheelset.reduction_slip,
+            )
+            sliding = _WHEELS * of_wheel
+        rolling = _force_of_brake(wheelset, car, deceleration, p)
         slip = slide * car.speed if rolling > sliding else 0.0
         wheelset.contact_loss += sliding * slip * step
         wheelset.rotation = (car.speed - slip) / wheelset.wheel_radius

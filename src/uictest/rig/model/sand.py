@@ -16,7 +16,7 @@ from typing import Final
 
 from uictest.core.physics import FILL, cleaned_friction, floor, interpolated, maximum, minimum
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.rail import POINTS, SAND_SLOTS, RailMemory, in_ring
+from uictest.rig.model.rail import POINTS, SAND_SLOTS, RailMemory, in_ring, value_at
 from uictest.rig.model.state import Car, Wheelset
 
 SAND_WINDOW: Final = 30.0
@@ -52,8 +52,8 @@ def _follow_demand(wheelset: Wheelset, i: int, car: Car, p: Parameters) -> None:
     elif car.wsp_resting_cycles > p.sander_run_on_cycles[i]:
         wheelset.slides_by_wsp = 0.0
     # What lays sand in every brake does so once its car is told to brake.
-    told = car.time + 0.5 * p.step >= p.command_given[0]
-    always = p.sanders_always[i] if told else 0.0
+    commanded = car.time + 0.5 * p.step >= p.command_given[0]
+    always = p.sanders_always[i] if commanded else 0.0
     demanded = maximum(always, p.sanders_on_slide[i] * wheelset.slides_by_wsp)
     if wheelset.sand_request == 1:
         demanded = maximum(demanded, p.sanders_on_request[i])
@@ -81,21 +81,21 @@ def spread_sand(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: 
     for i in range(4):
         wheelset = wheelsets[i]
         start = (memory.sand_position - wheelset.behind) * p.sand_points_per_metre
-        place = (car.position - wheelset.behind) * p.sand_points_per_metre
+        end = (car.position - wheelset.behind) * p.sand_points_per_metre
         flows = wheelset.sander_open * (1.0 - wheelset.sander_blocked)
-        if flows > 0.0 and place > start:
-            _lay(wheelset, i, start, place, p, memory)
+        if flows > 0.0 and end > start:
+            _lay(wheelset, i, start, end, p, memory)
         wheelset.sanding_time = wheelset.sanding_time + p.cycle_time if flows > 0.0 else 0.0
         wheelset.longest_sanding = maximum(wheelset.longest_sanding, wheelset.sanding_time)
-        wheelset.sand_density = _density_at(place, memory, i)
+        wheelset.sand_density = value_at(end, memory.sand, i)
         share = interpolated(wheelset.sand_density, p.sand_densities, p.sand_shares, p.sand_points)
         wheelset.friction = cleaned_friction(wheelset.friction, share, p.sand_friction)
         if i < 3:
-            _leave(memory, memory, i, i + 1, start, place, p.sand_kept)
+            _leave(memory, memory, i, i + 1, start, end, p.sand_kept)
     # Nobody writes anew what lies before the first wheelset of a train.
     start = (memory.sand_position - wheelsets[0].behind) * p.sand_points_per_metre
-    place = (car.position - wheelsets[0].behind) * p.sand_points_per_metre
-    for point in range(int(floor(start)), int(floor(place))):
+    end = (car.position - wheelsets[0].behind) * p.sand_points_per_metre
+    for point in range(int(floor(start)), int(floor(end))):
         memory.sand[in_ring(point, 0)] = 0.0
     memory.sand_passed = memory.sand_position
     memory.sand_position = car.position
@@ -111,8 +111,8 @@ def hand_sand_on(last: Wheelset, p: Parameters, memory: RailMemory, behind: Rail
         behind: of the rail under the next car.
     """
     start = (memory.sand_passed - last.behind) * p.sand_points_per_metre
-    place = (memory.sand_position - last.behind) * p.sand_points_per_metre
-    _leave(memory, behind, 3, 0, start, place, p.sand_kept)
+    end = (memory.sand_position - last.behind) * p.sand_points_per_metre
+    _leave(memory, behind, 3, 0, start, end, p.sand_kept)
 
 
 def _lay(wheelset: Wheelset, i: int, start: float, end: float, p: Parameters, memory: RailMemory) -> None:
@@ -139,16 +139,9 @@ def _begin_slots(time: float, wheelsets: Sequence[Wheelset], memory: RailMemory)
             memory.sand_before[i * SAND_SLOTS + memory.sand_slot % SAND_SLOTS] = wheelsets[i].sand_laid
 
 
-def _density_at(place: float, memory: RailMemory, ring: int) -> float:
-    """Return what lies before a wheelset at a place, in units of the grid; linear between points."""
-    point = floor(place)
-    here = memory.sand[in_ring(int(point), ring)]
-    return here + (place - point) * (memory.sand[in_ring(int(point) + 1, ring)] - here)
-
-
 def _leave(
-    ahead: RailMemory, behind: RailMemory, ring: int, next_ring: int, start: float, end: float, kept: float
+    ahead: RailMemory, behind: RailMemory, ring: int, next_ring: int, start: float, end: float, share: float
 ) -> None:
     """Leave a share of the sand at the points that a wheelset has passed since the last cycle."""
     for point in range(int(floor(start)) + 1, int(floor(end)) + 1):
-        behind.sand[in_ring(point, next_ring)] = kept * ahead.sand[in_ring(point, ring)]
+        behind.sand[in_ring(point, next_ring)] = share * ahead.sand[in_ring(point, ring)]

@@ -1,11 +1,11 @@
-"""State of the rig: car, bogies and wheelsets.
+"""State of the rig: car, bogies, wheelsets, and the couplers between cars.
 
 SI units; pressures are absolute unless named gauge. The order of fields carries no meaning.
 """
 
 from uictest.controllers import CONTROLLERS, BrakedTrain, BrakedWheelset
 from uictest.core.record import Record, layout_of
-from uictest.rig.model.wheelset_parameters import WheelsetParameters
+from uictest.rig.model.parameters import WheelsetParameters
 
 
 class Frame(Record):
@@ -87,20 +87,20 @@ class Car(Frame, BrakedTrain):
     # sanders: rig.model.sand
     wsp_acting_cycles: int  # for which it has held or vented a wheelset of the car without a break
     wsp_resting_cycles: int  # since it last did
-    # second source of speed, accelerometer: rig.model.train_sensors
+    # second source of speed, accelerometer: rig.model.cycle
     train_speed_1: float  # its newest value, m/s
     train_speed_2: float  # the ones before
     train_speed_3: float
     train_speed_4: float
     held_train_speed: float  # that the controller was given last, m/s
     speed_before: float  # of the car one controller cycle ago, m/s
-    # drag braking: rig.model.traction
+    # drag braking: rig.model.running_gear
     drag_phase: int
     drag_ends: float  # s
     holds_speed: float  # 1 while traction holds the speed
     held_time: float  # for which it has been held, s
     traction_work: float  # J
-    # couplers: rig.model.couplers; zero in a car alone
+    # couplers: rig.model.train; zero in a car alone
     coupler_force: float  # of both ends, N
     coupler_moment: float  # N m
     coupler_work: float  # on the car, J
@@ -238,7 +238,7 @@ class Wheelset(BrakedWheelset, WheelsetParameters):
     contact_loss: float  # J
     disc_heat: float  # of brake_heat, what has warmed the modelled discs, J
     disc_cooling: float  # from the discs to the air, J
-    # friction that varies at random: rig.model.random_rail
+    # friction that varies at random: rig.model.rail
     rail_point: float  # the last that it has passed, counted from far behind
     rail_deviation: float  # of the logarithm of friction at the next point, over its spread
     rail_factor: float  # of friction at the last point
@@ -253,6 +253,20 @@ class ModuleStep(Record):
     clamping_force: float
 
 
+class Coupler(Record):
+    """A coupler behind a car: its numbers, its state and its ledgers."""
+
+    stiffness: float  # N/m
+    damping: float  # N s/m
+    height: float  # above the rail, m
+    force: float  # with which it pulls both cars together, N
+    leading_speed: float  # of its point on the car before it at the beginning of the step, m/s
+    trailing_speed: float  # and on the car behind it
+    loss: float  # J
+    largest_pull: float  # N
+    largest_push: float  # N
+
+
 CAR = layout_of(Car, *(controller.train_memory for controller in CONTROLLERS.values()))
 """Layout of :class:`Car` and of what every controller remembers about the train."""
 BOGIE = layout_of(Bogie)
@@ -261,3 +275,5 @@ WHEELSET = layout_of(Wheelset, *(controller.wheelset_memory for controller in CO
 """Layout of :class:`Wheelset` and of what every controller remembers about a wheelset."""
 MODULE_STEP = layout_of(ModuleStep)
 """Layout of :class:`ModuleStep`."""
+COUPLER = layout_of(Coupler)
+"""Layout of :class:`Coupler`."""

@@ -8,7 +8,7 @@ lanes do, whose processor then finds more of what it works on in its registers a
 from collections.abc import Sequence
 
 from uictest.core.physics import select
-from uictest.rig.model.clamping import (
+from uictest.rig.model.friction_brake import (
     compensate,
     read_loadcells,
     read_pressure,
@@ -23,11 +23,11 @@ from uictest.rig.model.running_gear import (
     clear_forces,
     couple_body,
     couple_wheelset,
+    find_slips,
     step_body,
     step_frame,
     step_wheelset,
 )
-from uictest.rig.model.slip_search import find_slips
 from uictest.rig.model.state import Bogie, Car, ModuleStep, Wheelset
 
 
@@ -39,46 +39,46 @@ def step_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     _count_step(car, p)
 
 
-def step_modules(car: Car, wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep], p: Parameters) -> None:
+def step_modules(
+    car: Car, wheelsets: Sequence[Wheelset], module_steps: Sequence[ModuleStep], p: Parameters
+) -> None:
     """Advance air and the first caliper, which every rig has; keep what the sensors read."""
     step_air(car, wheelsets, p)
-    _step_caliper(wheelsets[0], kept[0], p)
+    _step_caliper(wheelsets[0], module_steps[0], p)
     for i in range(4):
-        _keep_reading(wheelsets[i], kept[i], p)
+        read_pressure(wheelsets[i], p)
+        module_steps[i].pressure_reading = wheelsets[i].pressure_reading
+        module_steps[i].pressure_ratio = wheelsets[i].pressure_ratio
     wheelsets[0].compensated_pressure = wheelsets[0].pressure_reading
     _count_step(car, p)
 
 
-def step_other_calipers(wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep], p: Parameters) -> None:
+def step_other_calipers(
+    wheelsets: Sequence[Wheelset], module_steps: Sequence[ModuleStep], p: Parameters
+) -> None:
     """Advance the calipers of the other modules; nothing reads those that a rig does not have."""
     for i in range(1, 4):
-        _step_caliper(wheelsets[i], kept[i], p)
+        _step_caliper(wheelsets[i], module_steps[i], p)
 
 
-def compensate_kept(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
+def compensate_kept(wheelset: Wheelset, module_step: ModuleStep, p: Parameters) -> None:
     """Compute the clamping force of a module from what is kept of a step, unless its loadcells read it."""
-    wheelset.pressure_reading = kept.pressure_reading
-    wheelset.pressure_ratio = kept.pressure_ratio
+    wheelset.pressure_reading = module_step.pressure_reading
+    wheelset.pressure_ratio = module_step.pressure_ratio
     compensate(wheelset, p)
     has_caliper = wheelset.has_caliper > 0.0
-    kept.clamping_force = select(has_caliper, kept.clamping_force, wheelset.computed_force)
+    module_step.clamping_force = select(has_caliper, module_step.clamping_force, wheelset.computed_force)
 
 
-def take_clamping_forces(wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep]) -> None:
+def take_clamping_forces(wheelsets: Sequence[Wheelset], module_steps: Sequence[ModuleStep]) -> None:
     """Give the vehicle the clamping forces that are kept of a step."""
     for i in range(4):
-        wheelsets[i].clamping_force = kept[i].clamping_force
+        wheelsets[i].clamping_force = module_steps[i].clamping_force
 
 
-def _step_caliper(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
+def _step_caliper(wheelset: Wheelset, module_step: ModuleStep, p: Parameters) -> None:
     step_caliper(wheelset, p)
-    kept.clamping_force = read_loadcells(wheelset, p)
-
-
-def _keep_reading(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
-    read_pressure(wheelset, p)
-    kept.pressure_reading = wheelset.pressure_reading
-    kept.pressure_ratio = wheelset.pressure_ratio
+    module_step.clamping_force = read_loadcells(wheelset, p)
 
 
 def _count_step(car: Car, p: Parameters) -> None:

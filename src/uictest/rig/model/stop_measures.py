@@ -7,12 +7,9 @@ from uictest.core.measures import (
     TrainState,
     WheelsetMeasures,
     WheelsetState,
-    begin_build_up,
-    begin_contact,
     begin_slides,
     begin_slow_times,
     begin_train,
-    begin_utilisation,
     begin_wheelset,
     begin_window,
     close_contacts,
@@ -37,15 +34,16 @@ def begin_stop_measures(
     car: Car, measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures], p: Parameters
 ) -> None:
     """Start the measures of a stop that are one number."""
-    begin_train(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
+    reservoir, line = (
+        car.reservoir_pressure - p.atmospheric_pressure,
+        car.line_pressure - p.atmospheric_pressure,
+    )
     developed = NAN if p.has_dynamic_brake > 0.0 else p.commanded_pressure
-    begin_build_up(measures, developed, car.line_pressure - p.atmospheric_pressure)
-    begin_utilisation(measures)
+    begin_train(measures, car.time, car.position, car.speed, reservoir, developed, line)
     measures.compensation_misfit = p.compensation_misfit
     measures.has_diagnosis = select(p.controller == FROM_OUTSIDE, 1.0, 0.0)
     for i in range(4):
         begin_wheelset(wheelset_measures[i])
-        begin_contact(wheelset_measures[i])
 
 
 def begin_tables(measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures]) -> None:
@@ -222,10 +220,10 @@ def _highest_cylinder_pressure(wheelsets: Sequence[Wheelset]) -> float:
     return maximum(leading, trailing)
 
 
-def close_stop_measures(own: CarRecords) -> None:
+def close_stop_measures(records: CarRecords) -> None:
     """Add the ledgers and balances of the whole stop."""
-    car, bogies, wheelsets, p = own.car, own.bogies, own.wheelsets, own.parameters
-    measures, wheelset_measures = own.measures, own.wheelset_measures
+    car, bogies, wheelsets, p = records.car, records.bogies, records.wheelsets, records.parameters
+    measures, wheelset_measures = records.measures, records.wheelset_measures
     close_contacts(measures, wheelset_measures, p.total_mass)
     measures.air_consumed = car.consumed_air
     measures.held_time = car.held_time
@@ -239,13 +237,8 @@ def close_stop_measures(own: CarRecords) -> None:
         motored = p.has_dynamic_brake > 0.0
         wheelset_measures[i].dynamic_energy = wheelsets[i].dynamic_energy if motored else NAN
         if p.has_sanders > 0.0:
-            _note_sand(wheelset_measures[i], wheelsets[i])
+            wheelset_measures[i].sand_laid = wheelsets[i].sand_laid
+            wheelset_measures[i].sand_in_30_s = wheelsets[i].sand_in_window
+            wheelset_measures[i].longest_sanding = wheelsets[i].longest_sanding
         if p.models_disc_temperature == 0.0:
             wheelset_measures[i].maximum_disc_temperature = NAN
-
-
-def _note_sand(measures: WheelsetMeasures, wheelset: Wheelset) -> None:
-    """Note what the sander of a wheelset has laid: nothing, where it has none."""
-    measures.sand_laid = wheelset.sand_laid
-    measures.sand_in_30_s = wheelset.sand_in_window
-    measures.longest_sanding = wheelset.longest_sanding

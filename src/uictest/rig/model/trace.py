@@ -63,25 +63,18 @@ CAR_CHANNELS = units_of(TrainSample)
 """Channels of the train and their units."""
 WHEELSET_CHANNELS = units_of(WheelsetSample)
 """Channels of each wheelset and their units."""
-DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
-"""Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
-DYNAMIC_BRAKE_CHANNELS = ("dynamic_torque", "dynamic_reduction")
-"""Channels of each wheelset that mean something only where the car has a dynamic brake."""
-TRACK_BRAKE_CHANNELS = ("track_brake_force",)
-"""Channels of the train that mean something only where the car has a track brake."""
-TRAIN_SPEED_CHANNELS = ("measured_train_speed", "train_speed_valid")
-"""Channels of the train that mean something only where its speed has a second source."""
-ACCELERATION_CHANNELS = ("measured_acceleration",)
-"""Channels of the train that mean something only where the car has an accelerometer."""
-CONTROLLER_CHANNELS = ("diagnosis",)
-"""Channels of the train that mean something only where the controller comes from outside."""
-REQUEST_CHANNELS = ("track_brake_request", "sand_request")
-"""Channels of the train and of each wheelset that mean something only where a controller from outside is of
-contract version 2."""
-SAND_CHANNELS = ("sand_density", "sanding")
-"""Channels of each wheelset that mean something only where the car has sanders."""
-FAULT_CHANNELS = ("active_faults", "speed_valid")
-"""Channels of the train and of each wheelset that mean something only in stops with faults."""
+CHANNELS_OF = {
+    "disc temperature": ("disc_temperature", "disc_surface_temperature"),
+    "dynamic brake": ("dynamic_torque", "dynamic_reduction"),
+    "track brake": ("track_brake_force",),
+    "train speed": ("measured_train_speed", "train_speed_valid"),
+    "accelerometer": ("measured_acceleration",),
+    "controller from outside": ("diagnosis",),
+    "contract version 2": ("track_brake_request", "sand_request"),
+    "sanders": ("sand_density", "sanding"),
+    "faults": ("active_faults", "speed_valid"),
+}
+"""What a stop must have -> channels of the train and of each wheelset that mean something only then."""
 TRAIN_SAMPLE = layout_of(TrainSample)
 """Layout of :class:`TrainSample`."""
 WHEELSET_SAMPLE = layout_of(WheelsetSample)

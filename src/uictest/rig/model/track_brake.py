@@ -19,18 +19,18 @@ _BOGIES = 2.0
 def command_track_brake(car: Car, p: Parameters) -> None:
     """Decide for the coming cycle whether the magnets are drawn to the rail; scalar code."""
     now = car.time + 0.5 * p.step
-    asked = p.track_brake_commands[0] if now >= p.track_brake_first else 0.0
+    demanded = p.track_brake_commands[0] if now >= p.track_brake_first else 0.0
     for k in range(1, p.command_count):
         if now >= p.command_given[k]:
-            asked = p.track_brake_commands[k]
+            demanded = p.track_brake_commands[k]
     if p.track_brake_requested > 0.0:
-        asked *= car.track_brake_request * p.wsp_active
+        demanded *= car.track_brake_request * p.wsp_active
     if car.speed <= p.track_brake_off_speed:
-        asked = 0.0
-    if asked > 0.0 and car.track_brake_asked == 0.0:
+        demanded = 0.0
+    if demanded > 0.0 and car.track_brake_asked == 0.0:
         car.track_brake_due = car.time + p.track_brake_delay
-    car.track_brake_asked = asked
-    acts = asked > 0.0 and now >= car.track_brake_due and car.track_brake_failed == 0.0
+    car.track_brake_asked = demanded
+    acts = demanded > 0.0 and now >= car.track_brake_due and car.track_brake_failed == 0.0
     share = car.magnet_share + clamp(
         (1.0 if acts else 0.0) - car.magnet_share, -p.magnet_change, p.magnet_change
     )
@@ -89,7 +89,7 @@ def clean_by_magnets(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, mem
         for ring in (1, 3):
             behind = 0.5 * (wheelsets[ring - 1].behind + wheelsets[ring].behind)
             start = (memory.passed - behind) * p.rail_points_per_metre
-            place = (memory.position - behind) * p.rail_points_per_metre
-            clean_passed(memory, ring, start, place, before, share)
+            end = (memory.position - behind) * p.rail_points_per_metre
+            clean_passed(memory, ring, start, end, before, share)
         memory.magnet_cleaned = share
     memory.magnet_work = car.track_brake_energy

@@ -1,18 +1,24 @@
 """One stop of a train: cars with a rig each, coupled, on one rail. A car alone is a train of one.
 
-Between the cars are the couplers and the rail, with what the wheelsets of all cars before have left.
+Between the cars are the couplers and the rail, with what the wheelsets of all cars before have left. A
+coupler is a spring and a damper side by side, slack-free; it acts on the body at its height and makes the
+cars pitch. All forces come from the state at the beginning of a step, before any car is advanced, so that the
+order of the cars does not matter. Work is that of the force with the mean of the speeds of its point at both
+ends of the step.
 """
 
 from typing import Any
 
 from uictest.controllers import NO_FAILURE
+from uictest.core.physics import longitudinal, maximum, suspension_force
 from uictest.rig.model.controller import FROM_OUTSIDE, decide_watched, read_outputs, write_inputs
-from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.cycle import command_valves, read_sensors
-from uictest.rig.model.disc_brake import warm_discs
+from uictest.rig.model.friction_brake import warm_discs
+from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import hand_rail_on
 from uictest.rig.model.records import CarRecords, TrainRecords, car_of, needs_of
 from uictest.rig.model.sand import hand_sand_on
+from uictest.rig.model.state import Car, Coupler
 from uictest.rig.model.step import step_brake
 from uictest.rig.model.stop import (
     begin_stop,
@@ -107,31 +113,30 @@ def _begin_cycle(train: TrainRecords, j: int) -> None:
 
     The rail that the last wheelset of the car has passed is left to the next car.
     """
-    own = car_of(train, j)
-    notice_faults(own)
-    read_sensors(own.car, own.wheelsets, own.parameters, needs_of(own.parameters))
-    meet_rail(own, train.rail)
+    records = car_of(train, j)
+    notice_faults(records)
+    read_sensors(records.car, records.wheelsets, records.parameters, needs_of(records.parameters))
+    meet_rail(records, train.rail)
     if j + 1 < len(train.cars):
-        hand_on(own, train.memories[j + 1])
+        hand_on(records, train.memories[j + 1])
 
 
-def hand_on(own: CarRecords, behind: Any) -> None:
+def hand_on(records: CarRecords, behind: Any) -> None:
     """Leave to the next car what the last wheelset of this one leaves of the rail and on it."""
-    if own.parameters.cleans_rail > 0.0:
-        hand_rail_on(own.wheelsets[3], own.parameters, own.memory, behind)
-    if own.parameters.has_sanders > 0.0:
-        hand_sand_on(own.wheelsets[3], own.parameters, own.memory, behind)
+    if records.parameters.cleans_rail > 0.0:
+        hand_rail_on(records.wheelsets[3], records.parameters, records.memory, behind)
+    if records.parameters.has_sanders > 0.0:
+        hand_sand_on(records.wheelsets[3], records.parameters, records.memory, behind)
 
 
-def _act(own: CarRecords) -> None:
+def _act(records: CarRecords) -> None:
     """Set valves and demands for a cycle by what the controller has decided and the driver commands."""
-    take_commands(own)
-    command_valves(own.car, own.wheelsets, own.parameters)
-    set_demands(own)
+    take_commands(records)
+    command_valves(records.car, records.wheelsets, records.parameters)
+    set_demands(records)
 
 
 def _step_cycle(train: TrainRecords, trace: Trace, steps_per_sample: int, rows: int) -> int:
-    """Step all cars through a controller cycle; return the rows that the trace has then."""
     p = train.parameters[0]
     steps = (train.cars[0].cycle - 1) * p.steps_per_cycle
     if steps_per_sample > 0 and rows == 0:
@@ -152,10 +157,10 @@ def _step(train: TrainRecords) -> None:
     for j in range(len(couplers)):
         pull_cars(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
     for j in range(len(cars)):
-        own, needs = car_of(train, j), needs_of(parameters[j])
-        move_air(own.car, own.wheelsets, own.parameters, needs)
-        step_brake(own.car, own.wheelsets, own.parameters)
-        move_car(own.car, own.bogies, own.wheelsets, own.parameters, needs)
+        records, needs = car_of(train, j), needs_of(parameters[j])
+        move_air(records.car, records.wheelsets, records.parameters, needs)
+        step_brake(records.car, records.wheelsets, records.parameters)
+        move_car(records.car, records.bogies, records.wheelsets, records.parameters, needs)
     for j in range(len(couplers)):
         account_for_coupler(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
 
@@ -177,18 +182,74 @@ def _observe(train: TrainRecords) -> int:
     running = 0
     failed = 0
     for j in range(len(train.cars)):
-        own = car_of(train, j)
-        failed += own.car.controller_failed
-        if own.car.closed > 0.0:
-            if own.parameters.models_disc_temperature > 0.0:
-                warm_discs(own.wheelsets, own.parameters)  # others may still push the car along
+        records = car_of(train, j)
+        failed += records.car.controller_failed
+        if records.car.closed > 0.0:
+            if records.parameters.models_disc_temperature > 0.0:
+                warm_discs(records.wheelsets, records.parameters)  # others may still push the car along
             continue
-        needs = needs_of(own.parameters)
-        end_cycle(own.car, own.wheelsets, own.measures, own.wheelset_measures, own.parameters, needs)
-        keep_measures(own, own.measures, own.wheelset_measures)
-        if is_running(own.car, own.parameters):
+        needs = needs_of(records.parameters)
+        end_cycle(
+            records.car,
+            records.wheelsets,
+            records.measures,
+            records.wheelset_measures,
+            records.parameters,
+            needs,
+        )
+        keep_measures(records, records.measures, records.wheelset_measures)
+        if is_running(records.car, records.parameters):
             running += 1
         else:
-            close_stop_measures(own)
-            own.car.closed = 1.0
+            close_stop_measures(records)
+            records.car.closed = 1.0
     return 0 if failed > 0 else running
+
+
+def release_couplers(car: Car) -> None:
+    """Clear the coupler forces on a car before they are summed for a step."""
+    car.coupler_force = 0.0
+    car.coupler_moment = 0.0
+
+
+def pull_cars(
+    coupler: Coupler, leading: Car, leading_p: Parameters, trailing: Car, trailing_p: Parameters
+) -> None:
+    """Add the force of a coupler to the cars before and behind it, for a step; in lanes, too."""
+    coupler.leading_speed = point_speed(leading, leading_p, coupler)
+    coupler.trailing_speed = point_speed(trailing, trailing_p, coupler)
+    stretch = point_position(leading, leading_p, coupler) - point_position(trailing, trailing_p, coupler)
+    rate = coupler.leading_speed - coupler.trailing_speed
+    coupler.force = suspension_force(coupler.stiffness, coupler.damping, stretch, rate)
+    coupler.largest_pull = maximum(coupler.force, coupler.largest_pull)
+    coupler.largest_push = maximum(-coupler.force, coupler.largest_push)
+    _load(leading, leading_p, coupler, -coupler.force)
+    _load(trailing, trailing_p, coupler, coupler.force)
+
+
+def account_for_coupler(
+    coupler: Coupler, leading: Car, leading_p: Parameters, trailing: Car, trailing_p: Parameters
+) -> None:
+    """Add the work of a coupler in the step that has just been made; in lanes, too."""
+    leading_mean = 0.5 * (coupler.leading_speed + point_speed(leading, leading_p, coupler))
+    trailing_mean = 0.5 * (coupler.trailing_speed + point_speed(trailing, trailing_p, coupler))
+    duration = leading_p.step
+    leading.coupler_work -= duration * coupler.force * leading_mean
+    trailing.coupler_work += duration * coupler.force * trailing_mean
+    rate = coupler.leading_speed - coupler.trailing_speed
+    coupler.loss += duration * coupler.damping * rate * (leading_mean - trailing_mean)
+
+
+def point_speed(car: Car, p: Parameters, coupler: Coupler) -> float:
+    """Speed of a coupler's point on a car body, m/s."""
+    return longitudinal(car.speed, car.pitch_rate, coupler.height - p.body_height)
+
+
+def point_position(car: Car, p: Parameters, coupler: Coupler) -> float:
+    """Position of that point, m."""
+    return longitudinal(car.position, car.pitch, coupler.height - p.body_height)
+
+
+def _load(car: Car, p: Parameters, coupler: Coupler, force: float) -> None:
+    car.coupler_force += force
+    car.coupler_moment -= (coupler.height - p.body_height) * force

@@ -12,7 +12,6 @@ from .batch import (
     shortest_cycle as shortest_cycle,
 )
 from .descriptions import descriptions_of as descriptions_of
-from .rail import with_rails as with_rails
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
     Verifier as Verifier,
@@ -38,4 +37,5 @@ from .stop import (
     run_trains as run_trains,
     stops_of as stops_of,
     stops_together as stops_together,
+    with_rails as with_rails,
 )

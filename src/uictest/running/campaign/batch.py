@@ -6,6 +6,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import chain, islice
 from types import TracebackType
@@ -17,13 +18,15 @@ from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import bench
 from uictest.running.campaign.stop import (
+    Block,
     CaseAssembly,
     CaseRun,
     RecordingRequest,
     StopRun,
+    blocks_of,
+    run_block,
     trains_in,
 )
-from uictest.running.campaign.train_blocks import Block, blocks_of, run_block
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -65,10 +68,7 @@ class ThreadedMap(Generic[Argument, Result]):
         return self
 
     def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         """Cancel the calls that have not started."""
         self._pool.shutdown(wait=kind is None, cancel_futures=True)
@@ -134,21 +134,18 @@ def parts_of_cases(cases: Sequence[scenario.Case]) -> PartsOfCases:
 
     A compensation that is to be identified is, in up to minutes: those parts are what the stop is run with.
     """
-    effective = evaluation.EffectiveParts()
-    return {case.id: effective.of(_as_run(case).scenario) for case in cases}
-
-
-def _as_run(case: scenario.Case) -> scenario.Case:
-    try:
-        return bench.identified(case)
-    except ValueError:  # nothing can be identified: the stop says why
-        return case
+    parts = {}
+    for case in cases:
+        # Where nothing can be identified, the stop says why.
+        with suppress(ValueError):
+            case = bench.identified(case)
+        parts[case.id] = evaluation.effective_parts(case.scenario)
+    return parts
 
 
 def parts_of_recorded(cases: Sequence[scenario.Case]) -> PartsOfCases:
     """Return the parts that recorded stops are judged with: conditions, measures and criteria, no rig."""
-    effective = evaluation.EffectiveParts()
-    return {case.id: effective.of_recorded(case.scenario) for case in cases}
+    return {case.id: evaluation.recorded_parts(case.scenario) for case in cases}
 
 
 @dataclass(frozen=True, slots=True)

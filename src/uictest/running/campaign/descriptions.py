@@ -11,11 +11,11 @@ from uictest.plans.scenario import Case, Coupler, ExternalController, Scenario, 
 
 def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
     """Return title, tags and the main settings of every case by its id."""
-    return {case.id: _description_of(case.scenario) for case in cases}
-
-
-def _description_of(scenario: Scenario) -> report.CaseDescription:
-    return report.CaseDescription(scenario.title, tuple(scenario.tags), _settings(scenario))
+    scenarios = {case.id: case.scenario for case in cases}
+    return {
+        case_id: report.CaseDescription(scenario.title, tuple(scenario.tags), _settings(scenario))
+        for case_id, scenario in scenarios.items()
+    }
 
 
 def _settings(scenario: Scenario) -> dict[str, str]:
@@ -39,7 +39,6 @@ def _settings(scenario: Scenario) -> dict[str, str]:
 
 
 def _train(coupler: Coupler, line: Any) -> str:
-    """Return what holds a train together."""
     numbers = f"couplers {coupler.stiffness.text}, {coupler.damping.text}, {coupler.distance.text} apart"
     command = "a wire" if line in (None, "wire") else f"a pipe at {line.pipe.text}"
     return f"{numbers}; command along {command}"

@@ -1,21 +1,22 @@
-"""One stop of a case, simulated and judged; the stops of a case, put together."""
+"""One stop of a case, or the stops of a train, simulated and judged; the stops of a case, put together."""
 
 from __future__ import annotations
 
 import traceback
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import groupby
 from time import perf_counter
-from typing import Any, Literal, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
 from uictest import report, rig
-from uictest.controllers import ControllerError
+from uictest.controllers import DEFAULT, ControllerError
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
+from uictest.plans.scenario.yaml import Part
 from uictest.rig import bench
-from uictest.running.campaign.rail import with_rails
 
 
 class RecordingRequest(NamedTuple):
@@ -56,15 +57,15 @@ class CaseRun(NamedTuple):
 
 
 class Stop(NamedTuple):
-    """One stop of a case; `place` counts its seeds from 0."""
+    """One stop of a case; `repeat` counts the stops of the case from 0."""
 
     case: scenario.Case
-    place: int = 0
+    repeat: int = 0
 
     @property
     def seed(self) -> int:
         """The seed of the stop."""
-        return self.case.scenario.seed + self.place
+        return self.case.scenario.seed + self.repeat
 
     @property
     def is_repeated(self) -> bool:
@@ -98,14 +99,14 @@ def trains_in(cases: Iterable[scenario.Case]) -> Iterator[tuple[scenario.Case, .
 def stops_of(cases: Iterable[scenario.Case]) -> Iterator[Stop]:
     """Yield every stop of every case, in order of cases and seeds."""
     for case in cases:
-        yield from (Stop(case, place) for place in range(case.scenario.repeat))
+        yield from (Stop(case, repeat) for repeat in range(case.scenario.repeat))
 
 
 def stops_together(cases: Iterable[scenario.Case]) -> Iterator[tuple[Stop, ...]]:
     """Yield the stops that run at once, in order of cases and seeds: one alone, or those of a train."""
     for cars in trains_in(cases):
-        for place in range(cars[0].scenario.repeat):
-            yield tuple(Stop(case, place) for case in cars)
+        for repeat in range(cars[0].scenario.repeat):
+            yield tuple(Stop(case, repeat) for case in cars)
 
 
 def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = None) -> StopRun:
@@ -139,17 +140,15 @@ def run_trains(
 
     Those whose controllers are built in run side by side, the others one after the other with `run`.
     """
-    here = [stops for stops in trains if not stops[0].case.is_from_outside]
-    in_lanes = iter(_run_in_lanes(here, request)) if here else iter(())
-    return [
-        each
-        for stops in trains
-        for each in (run_train(stops, request, run) if stops[0].case.is_from_outside else next(in_lanes))
-    ]
+    built_in = [stops for stops in trains if not stops[0].case.is_from_outside]
+    in_lanes = iter(_run_in_lanes(built_in, request) if built_in else ())
+    runs: list[StopRun] = []
+    for stops in trains:
+        runs += run_train(stops, request, run) if stops[0].case.is_from_outside else next(in_lanes)
+    return runs
 
 
 def _run_in_lanes(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -> list[list[StopRun]]:
-    """Simulate trains with built-in controllers side by side."""
     started = perf_counter()
     try:
         cases = [[bench.identified(stop.alone) for stop in stops] for stops in trains]
@@ -158,13 +157,13 @@ def _run_in_lanes(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -
         return [run_train(stops, request) for stops in trains]
     seconds = (perf_counter() - started) / len(trains)
 
-    def judged(stops: Sequence[Stop], of_train: list[rig.SimulatedStop]) -> list[StopRun]:
+    def judged(stops: Sequence[Stop], simulated_cars: list[rig.SimulatedStop]) -> list[StopRun]:
         def simulate(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
-            return of_train if every is None else rig.simulate_cars(cases, every)
+            return simulated_cars if every is None else rig.simulate_cars(cases, every)
 
         return _run(stops, request, simulate, seconds)
 
-    return [judged(*each) for each in zip(trains, simulated, strict=True)]
+    return list(map(judged, trains, simulated))
 
 
 def _run(
@@ -180,12 +179,12 @@ def _run(
         cases = [bench.identified(case) for case in cases]
         simulated = simulate(cases, interval_at_once(stops[0], request))
         seconds = (perf_counter() - started) / len(stops)
-        results = [_judged(*each, seconds) for each in zip(stops, cases, simulated, strict=True)]
+        results = [_judged(*of_car, seconds) for of_car in zip(stops, cases, simulated, strict=True)]
         results = with_rails(cases, results)
         # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
         if not stops[0].is_repeated and simulated[0].recording is None and any(map(request.wants, results)):
             simulated = simulate(cases, request.every)
-        return [_finished(*each, request) for each in zip(stops, results, simulated, strict=True)]
+        return [_finished(*of_car, request) for of_car in zip(stops, results, simulated, strict=True)]
     except Exception as error:
         seconds = (perf_counter() - started) / len(stops)
         failed = [_failed(case, error, seconds) for case in cases]
@@ -210,16 +209,56 @@ def _judged(
     )
 
 
+def with_rails(
+    cases: Sequence[scenario.Case], results: Sequence[evaluation.CaseResult]
+) -> list[evaluation.CaseResult]:
+    """Return the results of a stop, or of the cars of a train, with the validity of the rail where asked.
+
+    The stop is run again under its seed, with the WSP bypassed: of a train, that of every car.
+    """
+    asked = [evaluation.asks_for_rail(*each) for each in zip(cases, results, strict=True)]
+    if not any(asked):
+        return list(results)
+    bypassed = [case.changed(_bypassed) for case in cases]
+    if cases[0].train is not None:
+        stops = rig.simulate_cars(bypassed, None)
+    else:
+        stops = [rig.simulate(case, None) for case in bypassed]
+    return [
+        evaluation.with_rail(result, case, stop.measures, stop.wheelset_measures) if wanted else result
+        for wanted, case, result, stop in zip(asked, cases, results, stops, strict=True)
+    ]
+
+
+def _bypassed(resolved: scenario.Scenario) -> scenario.Scenario:
+    """Return a scenario with the WSP bypassed; no program from outside runs where it would not act."""
+    bypassed = scenario.with_wsp_bypassed(resolved)
+    if resolved.controller.program is None:
+        return bypassed
+    own = {"cycle_time": resolved.controller.cycle_time}
+    return bypassed.model_copy(update={"controller": _built_in().model_copy(update=own)})
+
+
+@cache
+def _built_in() -> Part:
+    return scenario.load_part(f"controllers/{DEFAULT}")
+
+
 def _finished(
     stop: Stop, result: evaluation.CaseResult, simulated: rig.SimulatedStop, request: RecordingRequest
 ) -> StopRun:
+    """Return a judged stop; the first of a repeated case has a recording, which says that it is the first."""
+    case_run, samples = CaseRun(result, output=simulated.controller_output), simulated.recording
+    if not stop.is_repeated:
+        return StopRun(stop, case_run._replace(recording=samples if request.wants(result) else None))
+    if samples is not None and stop.repeat < request.band_stops:
+        case_run = case_run._replace(extremes=(report.stop_extremes(samples),))
+    if samples is not None and stop.repeat == 0:
+        which = f"{stop.seed}, the first of {stop.case.scenario.repeat} stops"
+        first = replace(samples, metadata={**samples.metadata, "seed": which})
+        case_run = case_run._replace(recording=first)
     records = (simulated.measures, simulated.wheelset_measures) if result.outcome != "error" else ()
-    if stop.is_repeated:
-        case_run = _of_repeated(stop, request, result, simulated.recording)
-    else:
-        case_run = CaseRun(result, simulated.recording if request.wants(result) else None)
-    case_run = case_run._replace(output=simulated.controller_output)
-    return StopRun(stop, case_run, records if stop.is_repeated else ())
+    return StopRun(stop, case_run, records)
 
 
 def interval_at_once(stop: Stop, request: RecordingRequest) -> float | None:
@@ -229,33 +268,19 @@ def interval_at_once(stop: Stop, request: RecordingRequest) -> float | None:
     misses its expectation is known when all of its stops are there.
     """
     if stop.is_repeated:
-        at_once = stop.place < max(request.band_stops, 1)
+        at_once = stop.repeat < max(request.band_stops, 1)
     else:
         at_once = request.cases == "all" or stop.case.is_from_outside
     return request.every if at_once and request.cases != "none" else None
 
 
 def _failed(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
-    """Return the result of a stop that ended in an exception after so many seconds."""
     reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     of_controller = isinstance(error, ControllerError)
     result = evaluation.error_result(case, f"controller: {error}" if of_controller else reason, duration)
     if of_controller:
         result = replace(result, case_sha256=rig.sha256_of_case(case))
     return CaseRun(result, None, "".join(traceback.format_exception(error)), (), getattr(error, "output", ""))
-
-
-def _of_repeated(
-    stop: Stop, request: RecordingRequest, result: evaluation.CaseResult, samples: Recording | None
-) -> CaseRun:
-    """Return one stop of a repeated case: the first with its recording, which says that it is the first."""
-    if samples is None:
-        return CaseRun(result)
-    extremes = (report.stop_extremes(samples),) if stop.place < request.band_stops else ()
-    if stop.place:
-        return CaseRun(result, extremes=extremes)
-    which = f"{stop.seed}, the first of {stop.case.scenario.repeat} stops"
-    return CaseRun(result, replace(samples, metadata={**samples.metadata, "seed": which}), extremes=extremes)
 
 
 @dataclass(slots=True)
@@ -267,13 +292,13 @@ class CaseAssembly:
 
     def add(self, run: StopRun) -> None:
         """Add a stop that is finished."""
-        self._runs.setdefault(run.stop.case.id, {})[run.stop.place] = run
+        self._runs.setdefault(run.stop.case.id, {})[run.stop.repeat] = run
 
     def complete(self) -> Iterator[CaseRun]:
         """Yield the cases all of whose stops are there, each once."""
         for case_id, runs in list(self._runs.items()):
             if len(runs) == next(iter(runs.values())).stop.case.scenario.repeat:
-                case_run = self._with_log(self._together([runs[place] for place in sorted(runs)]))
+                case_run = self._with_log(self._together([runs[repeat] for repeat in sorted(runs)]))
                 # Not before: an interrupt while the stops are judged does not lose them.
                 del self._runs[case_id]
                 yield case_run
@@ -288,13 +313,55 @@ class CaseAssembly:
         result = evaluation.evaluate_repeats(stop.case, repeats)
         crash = next((text for run in runs if (text := run.case_run.traceback)), "")
         recording = first.recording if self.request.wants(result) else None
-        extremes = tuple(each for run in runs for each in run.case_run.extremes)
+        extremes = tuple(extreme for run in runs for extreme in run.case_run.extremes)
         printed = {run.stop.seed: run.case_run.output for run in runs if run.case_run.output}
         output = "".join(f"--- seed {seed}\n{text}" for seed, text in printed.items())
         return CaseRun(result, recording, crash, extremes, output)
 
     def _with_log(self, run: CaseRun) -> CaseRun:
-        """Keep what the controller of a case printed, and name it in the result."""
         keep = self.request.keep_output
         log = keep(run.result.id, run.output) if keep and run.output else ""
         return run._replace(result=replace(run.result, controller_log=log)) if log else run
+
+
+_MOST_TOGETHER: Final = 32
+"""Trains that a thread simulates in one queue; chosen: four times what the widest registers hold."""
+
+Block = Sequence[Sequence[Stop]]
+"""Stops that run at once, one alone or those of the cars of a train; or several trains."""
+
+
+def blocks_of(cases: Sequence[scenario.Case], request: RecordingRequest, jobs: int) -> Iterator[Block]:
+    """Yield what each of so many threads runs in one go, in order of cases and seeds."""
+    trains = sum(_fits(stops, request) for stops in stops_together(cases))
+    # As many for each thread: at the end of the longest all others wait.
+    rounds = -(-trains // (_MOST_TOGETHER * jobs))
+    size = -(-trains // (rounds * jobs)) if trains else 1
+    for fits, neighbours in groupby(stops_together(cases), lambda stops: _fits(stops, request)):
+        together, step = list(neighbours), size if fits else 1
+        yield from (together[first : first + step] for first in range(0, len(together), step))
+
+
+def run_block(
+    block: Block,
+    request: RecordingRequest,
+    run: rig.RunInputs | None = None,
+    run_of_train: rig.RunTrain | None = None,
+) -> list[StopRun]:
+    """Simulate and judge what runs in one go.
+
+    `run` runs stops of cars alone, see :func:`.run_stop`, and `run_of_train` those of trains.
+    """
+    if len(block) > 1:
+        return run_trains(block, request)
+    (stops,) = block
+    if stops[0].case.train is not None:
+        return run_train(stops, request, run_of_train)
+    return [run_stop(stop, request, run) for stop in stops]
+
+
+def _fits(stops: Sequence[Stop], request: RecordingRequest) -> bool:
+    """Return whether stops can run in a lane: of a train with built-in controllers, none of them recorded."""
+    first = stops[0]
+    is_in_train = first.case.train is not None and not first.case.is_from_outside
+    return is_in_train and interval_at_once(first, request) is None

@@ -1,23 +1,19 @@
-from .case_selection import (
-    CaseSelection as CaseSelection,
-    Shard as Shard,
-    parse_shard as parse_shard,
-    select_cases as select_cases,
-)
 from .chunk import (
-    BlockRunner as BlockRunner,
+    CaseSelection as CaseSelection,
     ChunkRunner as ChunkRunner,
-    RunBlock as RunBlock,
+    Shard as Shard,
     WriteChunk as WriteChunk,
     chunk_runner as chunk_runner,
+    parse_shard as parse_shard,
     run_on_threads as run_on_threads,
+    select_cases as select_cases,
 )
 from .cluster import (
     ClusterError as ClusterError,
     check_address as check_address,
     run_on_cluster as run_on_cluster,
 )
-from .scenario_function import ScenarioVariants as ScenarioVariants
+from .many_stops import RunBlock as RunBlock, VariedCase as VariedCase, VariedTrain as VariedTrain
 from .store import (
     ChangedInputsError as ChangedInputsError,
     ChunkStore as ChunkStore,
@@ -35,4 +31,3 @@ from .table import (
     text_column as text_column,
     wheelset_columns as wheelset_columns,
 )
-from .varied_case import VariedCase as VariedCase, VariedTrain as VariedTrain

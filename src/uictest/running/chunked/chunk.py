@@ -1,48 +1,117 @@
-"""Run one chunk of a sweep and encode its results as Parquet."""
+"""The cases of a sweep in chunks: which are selected, and how a chunk is run to the bytes of its file."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections import namedtuple
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, groupby
-from typing import Any, Final
+from pathlib import PurePath
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import rig
-from uictest.core.ensemble import rows_at
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.judging.evaluation import (
-    CaseResult,
-    Detail,
-    asks_for_rail,
-    error_result,
-    evaluate_simulated,
-    may_be_biased,
-    with_rail,
-)
+from uictest.judging.evaluation import CaseResult, error_result
 from uictest.plans.scenario import Case
-from uictest.plans.sweeps import Plan, in_survey_steps, train_problem
-from uictest.running.campaign import RecordingRequest, ThreadedMap, run_trains, stops_together
-from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock, CaseValues
-from uictest.running.chunked.case_selection import CaseSelection
+from uictest.plans.sweeps import Column, Plan, train_problem
+from uictest.running.campaign import (
+    RecordingRequest,
+    ThreadedMap,
+    mentioned_in,
+    parse,
+    run_trains,
+    stops_together,
+)
+from uictest.running.chunked.many_stops import ManyStops, PlannedCase, RunBlock, no_such_key
 from uictest.running.chunked.table import biases_by_measure, parquet_bytes, rows
 
-RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
-"""Simulates a block in which a controller comes from outside: here, or in child processes."""
-Measures = tuple[NDArray[Any], NDArray[Any]]
-"""Measures of stops, shape (cases,), and of their wheelsets, (cases, 4)."""
-# Judging reads many fields, and a numpy record takes ten times as long to read as a tuple.
-_tuple_of: Any = namedtuple
-_Stop: Final = _tuple_of("_Stop", STOP_MEASURES.names)
-_Wheelset: Final = _tuple_of("_Wheelset", WHEELSET_MEASURES.names)
-Records = tuple[tuple[Any, ...], list[tuple[Any, ...]]]
-"""Measures of one stop and of its wheelsets."""
-Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64]], Measures]
-"""Simulates cases: records, those of wheelsets and friction laws to measures."""
+_SMALLEST_CHUNK: Final = 16
+_CHUNKING: Final = ((1024, 32), (4096, 64))
+"""Most cases in a chunk and the number of chunks to aim at.
+
+What a chunk costs whatever its size counts in a sweep that takes hours, whose chunks may take ten seconds.
+"""
+_IDS_AT_ONCE: Final = 4096
+"""Ids that are made, and in memory, at a time; chosen."""
+
+
+@dataclass(frozen=True)
+class CaseSelection:
+    """The selected cases of a plan in order; `selected` holds their indices, None where all are selected."""
+
+    plan: Plan
+    selected: NDArray[np.int64] | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of cases."""
+        return self.plan.size if self.selected is None else int(self.selected.size)
+
+    @property
+    def chunk_size(self) -> int:
+        """Cases in a chunk: seconds of work, and the same on every machine."""
+        sizes = (min(largest, self.size // chunks) for largest, chunks in _CHUNKING)
+        return max(_SMALLEST_CHUNK, *sizes)
+
+    @property
+    def chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.size // self.chunk_size)
+
+    def chunk(self, number: int) -> NDArray[np.int64]:
+        """Return the indices of the cases in a chunk."""
+        first = number * self.chunk_size
+        return self.indices(first, min(first + self.chunk_size, self.size))
+
+    def id_blocks(self) -> Iterator[list[str]]:
+        """Yield the ids of the cases in order, some thousands at a time."""
+        for first in range(0, self.size, _IDS_AT_ONCE):
+            yield self.plan.ids(self.indices(first, min(first + _IDS_AT_ONCE, self.size)))
+
+    def indices(self, first: int, end: int) -> NDArray[np.int64]:
+        """Return the indices of the cases from place `first` to before place `end`."""
+        return np.arange(first, end) if self.selected is None else self.selected[first:end]
+
+
+def select_cases(plan: Plan, expression: str | None) -> CaseSelection:
+    """Return the cases whose id, sweep file or tags match an expression. Raises ExpressionError."""
+    if expression is None:
+        return CaseSelection(plan)
+    matches = parse(expression)
+    common_names = (PurePath(plan.file).name, *plan.base.scenario.tags)
+    selected: list[NDArray[np.int64]] = []
+    for first in range(0, plan.size, _IDS_AT_ONCE):
+        indices = np.arange(first, min(first + _IDS_AT_ONCE, plan.size))
+        is_selected = [matches(mentioned_in((name, *common_names))) for name in plan.ids(indices)]
+        selected.append(indices[np.array(is_selected)])
+    return CaseSelection(plan, np.concatenate(selected))
+
+
+_FORM = re.compile(r"([0-9]{1,6})/([0-9]{1,6})")
+
+
+@dataclass(frozen=True, slots=True)
+class Shard:
+    """Shard `number` (from 1) of `count`."""
+
+    number: int = 1
+    count: int = 1
+
+    def chunk_numbers(self, chunks: int) -> Sequence[int]:
+        """Return the numbers of this shard's chunks: every `count`-th, so that shards take alike long."""
+        return range(self.number - 1, chunks, self.count)
+
+
+def parse_shard(text: str) -> Shard:
+    """Read a shard written as `i/n`, 1 <= i <= n. Raises ValueError."""
+    match = _FORM.fullmatch(text)
+    if match is None or not 1 <= int(match[1]) <= int(match[2]):
+        raise ValueError(f"{text!r} is not a shard: write 2/8 for the second of eight")
+    return Shard(int(match[1]), int(match[2]))
+
+
 WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _QUEUED = 256
@@ -53,11 +122,19 @@ _QUEUES_AHEAD = 2
 """Queues that wait or are ready beyond those in progress: bounds memory."""
 
 
-class ChunkRunner(ABC):
-    """Simulates and judges the cases of one chunk; several threads may share a runner."""
+@dataclass(frozen=True)
+class ChunkRunner:
+    """Simulates and judges the cases of chunks; several threads may share it.
+
+    Args:
+        plan: of the sweep.
+        stops: simulates cars alone.
+        run_train: simulates a train with controllers from outside.
+
+    """
 
     plan: Plan
-    run_block: RunBlock
+    stops: ManyStops
     run_train: rig.RunTrain | None = None
 
     def run(self, indices: NDArray[np.int64]) -> bytes:
@@ -67,177 +144,68 @@ class ChunkRunner(ABC):
 
     def run_together(self, chunks: Sequence[NDArray[np.int64]]) -> list[bytes]:
         """Return the Parquet files of several chunks, whose cases are simulated in one queue."""
-        table = rows(self.plan, *self.results_of(np.concatenate(chunks)))
-        sizes = [indices.size for indices in chunks]
+        indices = np.concatenate(chunks)
+        settings = self.plan.settings(indices)
+        results, repeated = self.results(indices, settings)
+        table = rows(self.plan, indices, settings, results, repeated)
+        sizes = [chunk.size for chunk in chunks]
         begins = np.cumsum([0, *sizes[:-1]]).tolist()
-        return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
+        return [parquet_bytes(table.slice(*span)) for span in zip(begins, sizes, strict=True)]
 
-    @abstractmethod
-    def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
-        """Return cases, their results, and the places of those of a survey that are of regular steps."""
+    def of_plan(self, plan: Plan) -> ChunkRunner:
+        """Return a runner of another plan of the same sweep."""
+        return replace(self, plan=plan, stops=replace(self.stops, keys=plan.keys))
 
+    def results(
+        self, indices: NDArray[np.int64], settings: Mapping[str, Column]
+    ) -> tuple[list[CaseResult], list[int]]:
+        """Return the results of cases, and the positions of those that a survey repeated in regular steps.
 
-@dataclass(frozen=True)
-class TrainRunner(ChunkRunner):
-    """Runs the cars of trains: each train once for all of its cars in a queue."""
+        `settings` are the values of the cases by key. An error in a case is its result.
+        """
+        if self.plan.own_keys:
+            return self._results_of_trains(indices), []
+        return self.stops.results(list(self._cars_alone(indices, settings)))
 
-    plan: Plan
-    run_block: RunBlock
-    run_train: rig.RunTrain | None = None
-
-    def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
-        """Return cars and their results; an error in one is its result."""
-        cars = list(self._cars(indices))
-        sound = (case for case, reason in cars if not reason)
-        runs = iter(run_trains(list(stops_together(sound)), RecordingRequest("none"), self.run_train))
-        results = [
-            error_result(case, reason) if reason else next(runs).case_run.result for case, reason in cars
-        ]
-        return CaseValues(indices, self.plan.ids(indices), self.plan.settings(indices)), results, []
-
-    def _cars(self, indices: NDArray[np.int64]) -> Iterator[tuple[Case, str]]:
-        """Yield cars, and why their train cannot run, empty where it can."""
+    def _cars_alone(
+        self, indices: NDArray[np.int64], settings: Mapping[str, Column]
+    ) -> Iterator[PlannedCase]:
         base = self.plan.base
-        for _, of_train in groupby(indices.tolist(), lambda index: index // len(self.plan.own_keys)):
-            places = np.array([*of_train])
+        for k, name in enumerate(self.plan.ids(indices)):
+            contents = {key: column[k].content for key, column in settings.items()}
             try:
-                cars = self.plan.cases(places)
+                [scenario] = self.plan.scenarios(contents)
+                yield PlannedCase(Case(name, scenario, base.path, {}, {}))
+            except KeyError as error:
+                yield PlannedCase(replace(base, id=name), no_such_key(error))
+
+    def _results_of_trains(self, indices: NDArray[np.int64]) -> list[CaseResult]:
+        """Return the results of cars; an error in one is its result. Each train is run once for all of its
+        cars among the cases.
+        """
+        cars = list(self._cars_of_trains(indices))
+        sound = (car.case for car in cars if not car.problem)
+        runs = iter(run_trains(list(stops_together(sound)), RecordingRequest("none"), self.run_train))
+        return [error_result(*car) if car.problem else next(runs).case_run.result for car in cars]
+
+    def _cars_of_trains(self, indices: NDArray[np.int64]) -> Iterator[PlannedCase]:
+        for _, of_train in groupby(indices.tolist(), lambda index: index // len(self.plan.own_keys)):
+            in_train = np.array([*of_train])
+            try:
+                cars = self.plan.cases(in_train)
                 assert cars[0].train is not None
                 keys = (own.values() for own in self.plan.own_keys)
-                reason = train_problem(cars[0].train.scenarios, keys)
-            except KeyError as error:  # a value of one key leaves no place for that of another
-                cars = [replace(base, id=name) for name in self.plan.ids(places)]
-                reason = f"{error.args[0]!r}: no such key beside the other values of this case"
-            yield from ((car, reason) for car in cars)
-
-
-@dataclass(frozen=True)
-class BlockRunner(ChunkRunner):
-    """Runs cars alone."""
-
-    assembler: BlockAssembler
-    simulate: Simulate
-    plan: Plan
-    run_block: RunBlock
-    biases: Mapping[str, float] | None = None
-    """Of measures, in a survey: those of the step that the cases are simulated in."""
-    detail: Detail = "status"
-    """How much verdicts say, see :func:`uictest.judging.evaluation.judge`."""
-    regular: BlockRunner | None = None
-    """In a survey: simulates in regular steps what lies within its bias of a limit."""
-
-    def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
-        """Return cases and their results, see :meth:`results`."""
-        block = self.assembler.block(indices)
-        return block, *self.results(block)
-
-    def results(self, block: CaseBlock) -> tuple[list[CaseResult], list[int]]:
-        """Return the results of a block; an error in a case is its result.
-
-        Those of a survey that a bias may have decided are of regular steps: the second list has their places.
-        """
-        results, biases = self._results_in_own_steps(block), self.biases or {}
-        if self.regular is None:
-            return results, []
-        repeated = [place for place, result in enumerate(results) if may_be_biased(result, biases)]
-        if repeated:
-            again = self.regular.assembler.again(block, np.array(repeated))
-            for place, result in zip(repeated, self.regular.results(again)[0], strict=True):
-                results[place] = result
-        return results, repeated
-
-    def _results_in_own_steps(self, block: CaseBlock) -> list[CaseResult]:
-        places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
-        records: dict[int, Records] = {}
-        if places.size:
-            try:
-                stops, wheelsets = self._simulated(block, places)
-            except Exception as error:
-                return self._run_one_by_one(block, error)
-            of_each = zip(stops.tolist(), wheelsets.tolist(), strict=True)
-            records = dict(zip(places.tolist(), of_each, strict=True))
-        results = [self._result(block, place, records.get(place)) for place in range(len(block.ids))]
-        return self._with_rails(block, results)
-
-    def _with_rails(self, block: CaseBlock, results: list[CaseResult]) -> list[CaseResult]:
-        """Return results in which the rail decides where scenarios say so: the same stops, WSP bypassed."""
-        if self.plan.base.scenario.test_validity != "rail" and "test_validity" not in self.plan.keys:
-            return results
-        cases = [self.assembler.case(block, place) for place in range(len(results))]
-        places = np.array(
-            [
-                place
-                for place, (case, result) in enumerate(zip(cases, results, strict=True))
-                if case.scenario.test_validity == "rail" and asks_for_rail(case, result)
-            ],
-            np.int64,
-        )
-        if places.size:
-            bypassed = block.take(places)
-            bypassed.parameters["wsp_active"] = 0
-            stops, wheelsets = self._simulated(bypassed, np.arange(places.size))
-            of_each = zip(
-                places.tolist(), bypassed.rejections, stops.tolist(), wheelsets.tolist(), strict=True
-            )
-            for place, failure, stop, own in of_each:
-                if not failure:
-                    records = _Stop(*stop), [_Wheelset(*each) for each in own]
-                    results[place] = with_rail(results[place], cases[place], *records)
-        return results
-
-    def _result(self, block: CaseBlock, place: int, records: Records | None) -> CaseResult:
-        case, reason = self.assembler.case(block, place), block.rejections[place]
-        if records is not None and not reason:
-            try:
-                stop, wheelsets = _Stop(*records[0]), [_Wheelset(*each) for each in records[1]]
-                return evaluate_simulated(case, stop, wheelsets, detail=self.detail)
-            except Exception as error:  # a case that cannot be judged is a row and does not end the sweep
-                reason = f"{type(error).__name__}: {error}"
-        return error_result(case, reason)
-
-    def _simulated(self, block: CaseBlock, places: NDArray[np.int64]) -> Measures:
-        """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
-        inputs = (
-            rows_at(block.parameters, places),
-            rows_at(block.wheelset_parameters, places),
-            rows_at(block.rail, places),
-        )
-        programs = [block.programs[place] for place in places.tolist()]
-        if not any(programs):
-            return self.simulate(*inputs)
-        configs = [block.configs[place] for place in places]
-        run = self.run_block(rig.BlockInputs(programs, configs, *inputs))
-        for place, failure in zip(places, run.failures, strict=True):
-            block.rejections[place] = failure
-        run.measures["reference_distance"] = rig.reference_distances(*inputs)
-        return run.measures, run.wheelset_measures
-
-    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> list[CaseResult]:
-        """Find the case that caused the error of the block."""
-        if len(block.ids) == 1:
-            block.rejections[0] = f"{type(error).__name__}: {error}"
-            return self._results_in_own_steps(block)
-        alone = (block.take(np.array([place])) for place in range(len(block.ids)))
-        return [result for case in alone for result in self._results_in_own_steps(case)]
+                problem = train_problem(cars[0].train.scenarios, keys)
+            except KeyError as error:
+                cars = [replace(self.plan.base, id=name) for name in self.plan.ids(in_train)]
+                problem = no_such_key(error)
+            yield from (PlannedCase(car, problem) for car in cars)
 
 
 def chunk_runner(plan: Plan, run_block: RunBlock, run_train: rig.RunTrain | None = None) -> ChunkRunner:
     """Return a runner for a plan; what runs blocks or trains is asked where a controller is from outside."""
-    if plan.own_keys:
-        return TrainRunner(plan, run_block, run_train)
-    return block_runner(plan, run_block)
-
-
-def block_runner(
-    plan: Plan, run_block: RunBlock, *, as_base: bool = False, detail: Detail = "status"
-) -> BlockRunner:
-    """Return a runner of cars alone; further arguments as those of its assembler, and its own."""
-    assembler = BlockAssembler(plan, as_base=as_base)
-    regular = BlockRunner(assembler, rig.run_in_lanes, plan, run_block, detail=detail)
-    if not plan.survey:
-        return regular
-    survey = BlockAssembler(in_survey_steps(plan), as_base=as_base)
-    return replace(regular, assembler=survey, biases=biases_by_measure(), regular=regular)
+    biases = biases_by_measure() if plan.survey else None
+    return ChunkRunner(plan, ManyStops(plan.keys, run_block, survey_biases=biases), run_train)
 
 
 def run_on_threads(

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from uictest import rig
 from uictest.plans.sweeps import Plan, programs_of
-from uictest.running.chunked.case_selection import CaseSelection
-from uictest.running.chunked.chunk import ChunkRunner, WriteChunk, chunk_runner
+from uictest.running.chunked.chunk import CaseSelection, ChunkRunner, WriteChunk, chunk_runner
 from uictest.running.chunked.store import program_digest
 
 _PER_THREAD: Final = 3

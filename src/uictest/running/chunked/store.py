@@ -15,21 +15,18 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uictest import report
 from uictest.core import envelope, files
-from uictest.judging.evaluation import EffectiveParts
+from uictest.judging.evaluation import effective_parts
 from uictest.plans import library
 from uictest.plans.scenario import SURVEY
 from uictest.report import named_parts
-from uictest.running.chunked.case_selection import CaseSelection
+from uictest.running.chunked.chunk import CaseSelection
 from uictest.running.chunked.table import SURVEY_TABLE
 
 SOURCES: Final = (*("core", "controllers", "plans", "judging", "rig", "running"),)
 """Rooms and modules of the package that determine the result of a case."""
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "pyarrow")
 _LIBRARY: Final = "library:"
-_LABELS: Final = {
-    "selected": "selection",
-    "cases_in_a_part": "cases per chunk",
-}
+_LABELS: Final = {"selected": "selection", "cases_in_a_part": "cases per chunk"}
 """Key -> the name that users know it by, where the two differ."""
 _DIGESTS: Final = {"program": "the program itself", "cases_sha256": "the cases that the sweep file asks for"}
 """Key of a digest, which itself says nothing -> what it is of."""
@@ -43,8 +40,10 @@ def sweep_manifest(
     Files are named relative to the sweep file, so that the manifest is the same from every working folder;
     but `file`, which people and GitHub look up, is the path that the user gave.
     """
-    plan, parts = selection.plan, EffectiveParts()
+    plan = selection.plan
     folder = Path(plan.file).parent
+    python = ".".join(platform.python_version_tuple()[:2])
+    versions = {"python": python} | {name: metadata.version(name) for name in _PACKAGES}
     return {
         **envelope.head(envelope.MANIFEST, "sweep"),
         "sweep": plan.name,
@@ -58,11 +57,11 @@ def sweep_manifest(
         "set": list(overrides),
         "seed": seed,
         "parameters": list(plan.keys),
-        "parts": named_parts([parts.of(car.scenario) for car in plan.base.cars]),
+        "parts": named_parts([effective_parts(car.scenario) for car in plan.base.cars]),
         "cases_sha256": plan.cases_sha256,
         "inputs": {_relative_to(folder, name): digest for name, digest in plan.inputs.items()},
         **({"time_step": SURVEY} if plan.survey else {}),
-        "versions": _versions(),
+        "versions": versions,
         "program": program_digest(),
     }
 
@@ -123,11 +122,6 @@ def program_digest() -> str:
         for source in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
             digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes())
     return digest.hexdigest()[:16]
-
-
-def _versions() -> dict[str, str]:
-    python = ".".join(platform.python_version_tuple()[:2])
-    return {"python": python} | {name: metadata.version(name) for name in _PACKAGES}
 
 
 if TYPE_CHECKING:
@@ -253,7 +247,7 @@ class ChunkStore:
         return [(int(match[1]), chunks / match[0]) for match in matches if match]
 
     def _discard(self) -> None:
-        files.remove_listed(self.folder, report.SWEEP_RESULTS)  # other chunks will have another result
+        files.remove_listed(self.folder, report.RESULTS)  # other chunks will have another result
         for name in (MANIFEST, *(f"{CHUNKS}/{path.name}" for _, path in self._files())):
             files.remove(self.folder, name)
 

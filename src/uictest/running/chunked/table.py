@@ -11,15 +11,15 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uictest import __version__
 from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.units import SIZES
 from uictest.judging.evaluation import CaseResult, narrowest_margin
 from uictest.plans import library
-from uictest.plans.sweeps import REGULAR_STEP, SURVEY_STEP, Plan, controllers_of, scenarios_with_each
+from uictest.plans.sweeps import REGULAR_STEP, SURVEY_STEP, Column, Plan, controllers_of, scenarios_with_each
 from uictest.report import SurveyBias, SurveyStep, SweptController
-from uictest.running.chunked.case_blocks import CaseValues
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -48,10 +48,7 @@ def number_column(key: str) -> str:
 
 def measure_columns() -> list[str]:
     """Return the columns of measures: those of the stop, then those of each wheelset."""
-    return [
-        *STOP_COLUMNS,
-        *(column for name in WHEELSET_COLUMNS for column in wheelset_columns(name)),
-    ]
+    return [*STOP_COLUMNS, *(column for name in WHEELSET_COLUMNS for column in wheelset_columns(name))]
 
 
 def wheelset_columns(name: str) -> tuple[str, ...]:
@@ -87,23 +84,27 @@ def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) 
 
 
 def rows(
-    plan: Plan, block: CaseValues, results: Sequence[CaseResult], repeated: Sequence[int] = ()
+    plan: Plan,
+    indices: NDArray[np.int64],
+    settings: Mapping[str, Column],
+    results: Sequence[CaseResult],
+    repeated: Sequence[int] = (),
 ) -> pa.Table:
-    """Return the rows of a block; a measure without a value is null.
+    """Return the rows of cases; a measure without a value is null.
 
-    `repeated` are the places of those cases of a survey that were simulated in regular steps in the end.
+    `repeated` are the positions of those of a survey that were simulated in regular steps in the end.
     """
     import pyarrow as pa
 
-    columns: dict[str, Any] = {"index": block.indices, "id": block.ids}
-    for key, column in block.settings.items():
+    columns: dict[str, Any] = {"index": indices, "id": [each.id for each in results]}
+    for key, column in settings.items():
         columns[text_column(key)] = column.written
     for key in plan.numeric_keys:
-        columns[number_column(key)] = block.settings[key].numbers
+        columns[number_column(key)] = settings[key].numbers
     columns["expect"] = [str(each.expect) for each in results]
     for name in (*_STATED, "met"):
         columns[name] = [getattr(each, name) for each in results]
-    names = (named_controller(each) for each in _controllers(plan, block))
+    names = (named_controller(each) for each in _controllers(plan, indices, settings))
     columns |= zip(_CONTROLLER, zip(*((each.name, each.version) for each in names), strict=True), strict=True)
     margins = map(narrowest_margin, results)
     columns["narrowest_margin"], columns["narrowest_criterion"] = zip(*margins, strict=True)
@@ -145,12 +146,11 @@ def named_controller(controller: Any) -> SweptController:
     return SweptController(controller.label, controller.version or "", controller.kind)
 
 
-def _controllers(plan: Plan, block: CaseValues) -> Iterator[Any]:
-    """Yield the controller of each case."""
+def _controllers(plan: Plan, indices: NDArray[np.int64], settings: Mapping[str, Column]) -> Iterator[Any]:
     of_cars = list(controllers_of(plan))
-    for place, index in enumerate(block.indices.tolist()):
+    for k, index in enumerate(indices.tolist()):
         key, own = of_cars[index % len(of_cars)]
-        yield block.settings[key][place].content if key else own
+        yield settings[key][k].content if key else own
 
 
 def surveyed_cases(table: pa.Table) -> set[int]:

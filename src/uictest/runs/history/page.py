@@ -1,34 +1,23 @@
-"""The page of a folder of runs, and its `index.html`."""
+"""The page of a folder of runs: its `index.html`."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final
 from urllib.parse import quote
 
 from uictest import report
 from uictest.core import files
 from uictest.report.page import render
-from uictest.runs.history.entry import encodable
-from uictest.runs.history.listing import FOLDERS_READ, Listing, list_runs
-from uictest.runs.history.run_in_folder import ListedRun
+from uictest.runs.history.listing import FOLDERS_READ, ListedRun, Listing, encodable, list_runs
 
+INDEX: Final = "index.html"
 MARK: Final = "uictest/index/1"
 """Stands in every index, so that a page of somebody else is never replaced."""
 _UNLISTED_SHOWN: Final = 50
-
-
-class RunRow(NamedTuple):
-    """A run in the table of runs."""
-
-    run: ListedRun
-    href: str
-    verdict: str
-    tone: str
-    tally: str
-    distance: str
+_PATIENCE: Final = 10.0
+"""How long another process may take to write the index, s."""
 
 
 def index_html(folder: str, listing: Listing) -> str:
@@ -39,10 +28,12 @@ def index_html(folder: str, listing: Listing) -> str:
         running_head=folder,
         mark=MARK,
         folder=folder,
-        rows=[_run_row(run) for run in listing.runs],
-        bounds=_bounds(listing),
-        unlisted=listing.unlisted[:_UNLISTED_SHOWN],
-        more_unlisted=len(listing.unlisted[_UNLISTED_SHOWN:]),
+        listing=listing,
+        folders_read=FOLDERS_READ,
+        unlisted_shown=_UNLISTED_SHOWN,
+        page_href=page_href,
+        verdict_of=verdict_of,
+        tally=tally,
     )
 
 
@@ -51,54 +42,27 @@ def page_href(run: ListedRun) -> str:
     return f"./{quote(os.fsencode(run.page))}" if run.page else ""
 
 
-def _run_row(run: ListedRun) -> RunRow:
-    return RunRow(run, page_href(run), *_verdict(run), _tally(run), _distance(run))
-
-
-def _verdict(run: ListedRun) -> tuple[str, str]:
+def verdict_of(run: ListedRun) -> tuple[str, str]:
     """Return whether all cases are as expected, and the tone of that."""
     if not run.complete:
         return "incomplete", "odd"
-    counts = [*run.counts, *run.series]
-    if not counts:
+    words = [*run.counts, *run.series]
+    if not words:
         return "–", "none"  # noqa: RUF001 - a dash on paper
-    if "error" in counts:
+    if "error" in words:
         return "error", "odd"
     return ("not met", "bad") if run.not_met else ("met", "good")
 
 
-def _tally(run: ListedRun) -> str:
+def tally(run: ListedRun) -> str:
     """Return the counts of a run in words; the note where there are none."""
-    of_series = ", ".join(f"{count} {word}" for word, count in run.series.items())
-    cases = sum(run.counts.values())
-    texts = [
-        f"{report.counted(cases, 'case')}: {report.counts_text(run.counts, 0)}" if cases else "",
-        f"{sum(run.series.values())} series: {of_series}" if of_series else "",
-        run.note,
-    ]
-    return "; ".join(filter(None, texts))
-
-
-def _distance(run: ListedRun) -> str:
-    """Return the braking distance of a run, of several stops the shortest and the longest; empty without."""
-    shown = dict.fromkeys(f"{distance:.1f}" for distance in run.distances or ())
-    return " .. ".join(shown)
-
-
-def _bounds(listing: Listing) -> list[str]:
-    """Return what the page leaves out."""
-    sentences: Mapping[str, int] = {
-        f"Read: the {FOLDERS_READ} folders changed last; {listing.not_read} older are not.": listing.not_read,
-        f"{report.counted(listing.partial, 'folder')} being filled, or left by a killed run.": (
-            listing.partial
-        ),
-    }
-    return [sentence for sentence, count in sentences.items() if count > 0]
-
-
-INDEX: Final = "index.html"
-_PATIENCE: Final = 10.0
-"""How long another process may take to write the index, s."""
+    texts = []
+    if cases := sum(run.counts.values()):
+        texts.append(f"{report.counted(cases, 'case')}: {report.counts_text(run.counts, 0)}")
+    if run.series:
+        of_series = ", ".join(f"{count} {word}" for word, count in run.series.items())
+        texts.append(f"{sum(run.series.values())} series: {of_series}")
+    return "; ".join(filter(None, [*texts, run.note]))
 
 
 def refresh_index(folder: Path) -> str:

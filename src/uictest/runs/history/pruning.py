@@ -11,9 +11,7 @@ from functools import cached_property
 from pathlib import Path
 
 from uictest.core import files
-from uictest.runs.history.foreign_files import UnreadableError
-from uictest.runs.history.listing import list_runs
-from uictest.runs.history.run_in_folder import Kind, ListedRun, started_in
+from uictest.runs.history.listing import Kind, ListedRun, list_runs, started_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,19 +39,19 @@ class _Reference:
 
     def leads_into(self, folder: Path) -> bool:
         """Return whether the path leads to a run or into it. Raises OSError."""
-        if self._place.is_relative_to(os.path.realpath(folder)):
+        if self._resolved.is_relative_to(os.path.realpath(folder)):
             return True
         # Whatever it is relative to: no other folder has the name of a run.
         if started_in(folder.name) and folder.name in self.path.parts:
             return True
         # Of an absolute path, a manifest has the last name alone, and `latest` leads elsewhere by now.
-        files = folder.rglob("*") if self.sha256 else ()
-        alike = (file for file in files if file.name == self.path.name and file.is_file())
+        written = folder.rglob("*") if self.sha256 else ()
+        alike = (file for file in written if file.name == self.path.name and file.is_file())
         return any(hashlib.sha256(file.read_bytes()).hexdigest() == self.sha256 for file in alike)
 
     @cached_property
-    def _place(self) -> Path:
-        """Where the path leads; links may lead in circles, and a damaged file holds any text."""
+    def _resolved(self) -> Path:
+        # Links may lead in circles, and a damaged file holds any text.
         return Path(os.path.realpath(self.path)) if "\0" not in str(self.path) else self.path
 
 
@@ -110,7 +108,7 @@ def _why_kept(folder: Path, run: ListedRun, references: Iterable[_Reference], ne
             return "another process wrote it after this run"
         if started_in(folder.name) is None:
             return "somebody gave it this name, as to a baseline"
-    except (OSError, UnreadableError) as error:
+    except OSError as error:
         return f"it cannot be read: {error}"
     return ""
 

@@ -1,13 +1,20 @@
-"""What every WSP should keep: the checks."""
+"""What every WSP should keep: the checks, a controller examined by them, and the page of that."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest.selftest.conformance.bench import Answers, Bench
-from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, WHEELSETS
+from uictest import report
+from uictest.controllers import ControllerError
+from uictest.core.document import Lines, Table
+from uictest.core.recording import Recording
+from uictest.report import page
+from uictest.selftest.conformance.bench import ROLLS_AGAIN, SLIDE_BEGINS, WHEELSETS, Answers, Bench, Subject
+from uictest.selftest.findings import Examination, Finding, Status, finding_document
 
 
 class Observation(NamedTuple):
@@ -41,31 +48,25 @@ class Check:
 
 
 def _legal_commands(bench: Bench) -> Observation:
-    drives = [driven.outputs for each in bench.every_situation() for driven in each.drives]
-    illegal = sum(int(_illegal(outputs).sum()) for outputs in drives)
-    words = "hold and vent are 0 or 1, and vent only with hold"
-    if bench.contract > 1:
-        illegal += sum(int(_illegal_in_version_2(outputs).sum()) for outputs in drives)
-        words += ", reductions 0 to 1, requests 0 or 1"
-    return Observation(illegal, f"{words}, whatever the inputs")
-
-
-def _illegal(outputs: Any) -> Any:
-    hold, vent = outputs["hold"], outputs["vent"]
-    return (hold != 0) & (hold != 1) | (vent != 0) & (vent != 1) | (vent > hold)
-
-
-def _illegal_in_version_2(outputs: Any) -> Any:
-    shares, sand = outputs["dynamic_reduction"], outputs["sand_request"]
-    track_brake = outputs["track_brake_request"][:, np.newaxis]
-    asks_otherwise = ~np.isin(np.concatenate((sand, track_brake), axis=1), (0, 1))
-    return np.concatenate((~((shares >= 0.0) & (shares <= 1.0)), asks_otherwise), axis=1)
+    illegal = 0
+    for answers in bench.every_situation():
+        for outputs in (driven.outputs for driven in answers.drives):
+            hold, vent = outputs["hold"], outputs["vent"]
+            illegal += np.sum((hold != 0) & (hold != 1) | (vent != 0) & (vent != 1) | (vent > hold))
+            if bench.contract > 1:
+                shares, track_brake = outputs["dynamic_reduction"], outputs["track_brake_request"]
+                illegal += np.sum(~((shares >= 0.0) & (shares <= 1.0)))
+                illegal += np.sum(~np.isin(outputs["sand_request"], (0, 1)))
+                illegal += np.sum(~np.isin(track_brake, (0, 1)))
+    of_version_2 = ", reductions 0 to 1, requests 0 or 1" if bench.contract > 1 else ""
+    words = f"hold and vent are 0 or 1, and vent only with hold{of_version_2}, whatever the inputs"
+    return Observation(int(illegal), words)
 
 
 def _same_after_reset(bench: Bench) -> Observation:
     first, after_reset, second = bench.anything().drives
     different = [_different(first.outputs, other.outputs) for other in (after_reset, second)]
-    counts = [len(each) for each in different]
+    counts = [len(cycles) for cycles in different]
     words = f"after reset {counts[0]} cycles differ, with a second controller {counts[1]}"
     return Observation(sum(counts), words + _first_of(np.concatenate(different)))
 
@@ -102,7 +103,7 @@ def _different(one: Any, other: Any) -> Any:
     names = [name for name in one.dtype.names if not name.startswith("padding")]
     differs = np.zeros(len(one), bool)
     for name in names:
-        first, second = (each[name].reshape(len(one), -1) for each in (one, other))
+        first, second = (outputs[name].reshape(len(one), -1) for outputs in (one, other))
         differs |= ((first != second) & ~((first != first) & (second != second))).any(axis=1)
     return np.flatnonzero(differs)
 
@@ -111,56 +112,64 @@ def _keeps_brake(bench: Bench) -> Observation:
     answers = bench.good_rail()
     acting = ((answers.hold != 0) | (answers.vent != 0)).any(axis=1)
     first = f"; first at {answers.situation.time[acting][0]:.2f} s" if acting.any() else ""
-    return Observation(
-        int(acting.sum()), f"every wheelset rolls with the noise of the standard sensors{first}"
-    )
+    words = f"every wheelset rolls with the noise of the standard sensors{first}"
+    return Observation(int(acting.sum()), words)
 
 
 def _vents_sliding(bench: Bench) -> Observation:
-    times = [_time_to_vent(bench.one_slides(each), each) for each in range(WHEELSETS)]
+    times = []
+    for wheelset in range(WHEELSETS):
+        answers = bench.one_slides(wheelset)
+        vented = _while_it_slides(answers, answers.vent[:, wheelset] != 0)
+        times.append(float(vented[0] - SLIDE_BEGINS) if len(vented) else np.inf)
     return Observation(max(times), f"from the beginning of the slide; wheelsets 1 to 4: {_listed(times)}")
 
 
-def _time_to_vent(answers: Answers, wheelset: int) -> float:
+def _while_it_slides(answers: Answers, active: Any) -> Any:
+    """Return the times at which something is active while a wheelset slides, s."""
     time = answers.situation.time
-    vented = time[(answers.vent[:, wheelset] != 0) & (time >= SLIDE_BEGINS) & (time < ROLLS_AGAIN)]
-    return float(vented[0] - SLIDE_BEGINS) if len(vented) else np.inf
+    return time[active & (time >= SLIDE_BEGINS) & (time < ROLLS_AGAIN)]
 
 
 def _spares_rolling(bench: Bench) -> Observation:
     vented = [
-        np.delete(bench.one_slides(each).vent != 0, each, axis=1).any(axis=1).sum()
-        for each in range(WHEELSETS)
+        np.delete(bench.one_slides(wheelset).vent != 0, wheelset, axis=1).any(axis=1).sum()
+        for wheelset in range(WHEELSETS)
     ]
     return Observation(int(sum(vented)), "beside a sliding wheelset")
 
 
 def _gives_back(bench: Bench) -> Observation:
-    answers = map(bench.one_slides, range(WHEELSETS))
-    times = [_time_to_end(each, n, (each.hold != 0) | (each.vent != 0)) for n, each in enumerate(answers)]
+    answers = [bench.one_slides(wheelset) for wheelset in range(WHEELSETS)]
+    times = [
+        _time_to_end(answer, n, (answer.hold != 0) | (answer.vent != 0)) for n, answer in enumerate(answers)
+    ]
     return Observation(max(times), f"until it is filled for good; wheelsets 1 to 4: {_listed(times)}")
 
 
 def _time_to_end(answers: Answers, wheelset: int, acting: Any) -> float:
     """Return the time from rolling again until the last cycle in which the controller acts on it, s."""
+    time, train = answers.situation.time, answers.situation.train_speed
     acts = acting[:, wheelset]
     if acts[-1]:
         return np.inf
-    last = answers.situation.time[acts][-1] if acts.any() else 0.0
-    return max(float(last) - _rolls_at(answers, wheelset), 0.0)
+    last = float(time[acts][-1]) if acts.any() else 0.0
+    speed = answers.situation.inputs["wheel_speed"][:, wheelset]
+    rolls_again = float(time[(time > ROLLS_AGAIN) & (speed > 0.99 * train)][0])
+    return max(last - rolls_again, 0.0)
 
 
 def _not_vented_for_ever(bench: Bench) -> Observation:
     all_of_them = tuple(range(WHEELSETS))
-    answers = [bench.locked(each) for each in all_of_them] + [bench.locked(*all_of_them)]
-    times = [_longest(each.vent != 0) * bench.subject.config.cycle_time for each in answers]
+    answers = [bench.locked(wheelset) for wheelset in all_of_them] + [bench.locked(*all_of_them)]
+    times = [_longest(answer.vent != 0) * bench.subject.config.cycle_time for answer in answers]
     words = f"wheelsets 1 to 4 alone: {_listed(times[:-1])}, all together: {_listed(times[-1:])}"
     return Observation(max(times), words)
 
 
 def _survives_lost_sensor(bench: Bench) -> Observation:
     cycle_time = bench.subject.config.cycle_time
-    times = [_longest(bench.sensor_lost(each).vent != 0) * cycle_time for each in range(WHEELSETS)]
+    times = [_longest(bench.sensor_lost(wheelset).vent != 0) * cycle_time for wheelset in range(WHEELSETS)]
     words = f"any vent while the sensor of wheelset 1 to 4 reports a fault and all roll: {_listed(times)}"
     return Observation(max(times), words)
 
@@ -176,60 +185,48 @@ def _longest(active: Any) -> int:
 
 def _reference_speed(bench: Bench) -> Observation:
     answers = [bench.good_rail(), *map(bench.one_slides, range(WHEELSETS))]
-    estimates = np.concatenate([each.reference_speed for each in answers])
+    estimates = np.concatenate([answer.reference_speed for answer in answers])
     if np.isnan(estimates).all():
         return Observation(None, "the controller gives no reference speed")
-    errors = np.abs(estimates - np.concatenate([each.situation.train_speed for each in answers]))
+    errors = np.abs(estimates - np.concatenate([answer.situation.train_speed for answer in answers]))
     return Observation(float(np.nanmax(errors)), "while at least three wheelsets roll")
 
 
 def _answers_in_time(bench: Bench) -> Observation:
-    seconds = np.concatenate([driven.seconds for each in bench.every_situation() for driven in each.drives])
-    usual, longest = np.quantile(seconds, 0.99), seconds.max()
-    within = f"99 % of {len(seconds)} answers within {_short(usual)}, the longest {_short(longest)}"
-    return Observation(100.0 * float(usual) / bench.subject.config.cycle_time, f"on this machine; {within}")
-
-
-def _short(seconds: float) -> str:
-    return f"{seconds * 1e6:.0f} us" if seconds < 1e-3 else f"{seconds * 1e3:.1f} ms"
+    drives = [driven for answers in bench.every_situation() for driven in answers.drives]
+    seconds = np.concatenate([driven.seconds for driven in drives])
+    usual = float(np.quantile(seconds, 0.99))
+    shown = [f"{t * 1e6:.0f} us" if t < 1e-3 else f"{t * 1e3:.1f} ms" for t in (usual, seconds.max())]
+    words = f"on this machine; 99 % of {len(seconds)} answers within {shown[0]}, the longest {shown[1]}"
+    return Observation(100.0 * usual / bench.subject.config.cycle_time, words)
 
 
 def _motor_first(bench: Bench) -> Observation:
-    times = [_time_to_reduce(bench.motor_slides(each), each) for each in range(WHEELSETS)]
+    times = []
+    for wheelset in range(WHEELSETS):
+        answers = bench.motor_slides(wheelset)
+        reduced = _while_it_slides(answers, answers.reduction[:, wheelset] > 0.0)
+        vented = _while_it_slides(answers, answers.vent[:, wheelset] != 0)
+        first = len(reduced) and (not len(vented) or reduced[0] < vented[0])
+        times.append(float(reduced[0] - SLIDE_BEGINS) if first else np.inf)
     words = f"until it is reduced, never where the valve vents by then; wheelsets 1 to 4: {_listed(times)}"
     return Observation(max(times), words)
 
 
-def _time_to_reduce(answers: Answers, wheelset: int) -> float:
-    time = answers.situation.time
-    slides = (time >= SLIDE_BEGINS) & (time < ROLLS_AGAIN)
-    reduced = time[(answers.reduction[:, wheelset] > 0.0) & slides]
-    vented = time[(answers.vent[:, wheelset] != 0) & slides]
-    if len(reduced) == 0 or (len(vented) and vented[0] <= reduced[0]):
-        return np.inf
-    return float(reduced[0] - SLIDE_BEGINS)
-
-
 def _spares_motors(bench: Bench) -> Observation:
     """Motors of one bogie may have one converter."""
-    others = [slice(2, 4) if each < 2 else slice(0, 2) for each in range(WHEELSETS)]
+    others = [slice(2, 4) if wheelset < 2 else slice(0, 2) for wheelset in range(WHEELSETS)]
     reduced = [
-        (bench.motor_slides(n).reduction[:, each] > 0.0).any(axis=1).sum() for n, each in enumerate(others)
+        (bench.motor_slides(n).reduction[:, other_bogie] > 0.0).any(axis=1).sum()
+        for n, other_bogie in enumerate(others)
     ]
     return Observation(int(sum(reduced)), "in the bogie beside that of a sliding wheelset")
 
 
 def _motor_back(bench: Bench) -> Observation:
     answers = map(bench.motor_slides, range(WHEELSETS))
-    times = [_time_to_end(each, n, each.reduction > 0.0) for n, each in enumerate(answers)]
+    times = [_time_to_end(answer, n, answer.reduction > 0.0) for n, answer in enumerate(answers)]
     return Observation(max(times), f"until nothing is taken off for good; wheelsets 1 to 4: {_listed(times)}")
-
-
-def _rolls_at(answers: Answers, wheelset: int) -> float:
-    """Return when a wheelset that has slid rolls again, s."""
-    time, train = answers.situation.time, answers.situation.train_speed
-    speed = answers.situation.inputs["wheel_speed"][:, wheelset]
-    return float(time[(time > ROLLS_AGAIN) & (speed > 0.99 * train)][0])
 
 
 def _listed(times: list[float]) -> str:
@@ -256,3 +253,110 @@ CHECKS: Final = (
     Check("motor-back", "A motor gets its brake back.", 3.0, "s", _motor_back, contract=2),
 )
 """In the order of the report; what only a later version of the contract has comes last."""
+
+
+class Examined(NamedTuple):
+    """What a check of a controller has found, and the situations of each check that is missed, by its id."""
+
+    examination: Examination
+    missed: Mapping[str, Mapping[str, Answers]]
+
+
+def examine(subject: Subject) -> Examination:
+    """Check a controller; a crash, a hang or an exception of it is a finding with the status `error`."""
+    return examined(subject).examination
+
+
+def examined(subject: Subject) -> Examined:
+    """Check a controller and keep what it has answered where it misses a check."""
+    findings, missed = [], {}
+    with Bench(subject) as bench:
+        for check in CHECKS:
+            if check.contract > bench.contract:
+                continue
+            bench.asked = {}
+            finding = _finding(check, bench, subject.name)
+            findings.append(finding)
+            if finding.status in ("fail", "error") and bench.asked:
+                missed[check.id] = bench.asked
+        about = {f"controller.{name}": text for name, text in subject.description.items()}
+        about["controller.version"] = bench.version
+        version = f", version {bench.version}" if bench.version else ""
+    described = subject.description
+    digest = f", SHA-256 {described['sha256'][:12]}" if "sha256" in described else ""
+    title = f"controller {described['name']} ({described['kind']}{version}{digest})"
+    return Examined(Examination("controller check", title, about, tuple(findings)), missed)
+
+
+def _finding(check: Check, bench: Bench, controller: str) -> Finding:
+    try:
+        value, words = check.observe(bench)
+        missed: Status = "warning" if check.advisory else "fail"
+        status: Status = "skipped" if value is None else "pass" if value <= check.limit else missed
+    except ControllerError as error:
+        value, words, status = None, str(error), "error"
+    return Finding(
+        *(check.id, controller, check.requirement, status),
+        expected=check.limit,
+        found=value,
+        tolerance=None,
+        unit=check.unit,
+        reason=words,
+    )
+
+
+_UNITS = {"speed": "m/s", "reference_speed": "m/s", "wheel_speed": "m/s", "valve_command": "1"}
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnSituation:
+    """A situation with its plots, and the checks that were missed in it."""
+
+    name: str
+    checks: Sequence[str]
+    drawing: page.Drawing
+    data: str
+    note: str
+
+
+def examination_html(examination: Examination, missed: Mapping[str, Mapping[str, Answers]]) -> str:
+    """Return one page of a controller check; `missed` holds the situations of each check that is missed."""
+    answers = {name: own for of_check in missed.values() for name, own in of_check.items()}
+    situations = []
+    for name, answer in answers.items():
+        checks = [check for check, own in missed.items() if name in own]
+        trace = report.trace_of(recording_of(answer))
+        data = page.script_json(page.plot_data(name, trace))
+        situations.append(
+            DrawnSituation(name, checks, page.drawing_of(trace), data, page.sampling_text(trace))
+        )
+    _, table, remarks = finding_document(examination).sections
+    assert isinstance(table, Table)
+    assert isinstance(remarks, Lines)
+    return page.render(
+        "conformance.html.j2",
+        with_plots=bool(situations),
+        running_head=examination.title,
+        examination=examination,
+        table=table,
+        remarks=remarks.sentences,
+        situations=situations,
+        plots=page.plots_json(),
+    )
+
+
+def recording_of(answers: Answers) -> Recording:
+    """Return what was shown to a controller and what it answered; magnets of 0 and 1 alone make a state."""
+    situation = answers.situation
+    channels = {
+        "time": situation.time,
+        "speed": situation.train_speed,
+        "reference_speed": np.asarray(answers.reference_speed, dtype=np.float64),
+    }
+    for n in range(WHEELSETS):
+        hold, vent = answers.hold[:, n], answers.vent[:, n]
+        legal = np.isin(hold, (0, 1)) & np.isin(vent, (0, 1)) & (vent <= hold)
+        channels[f"wheel_speed_{n + 1}"] = np.asarray(situation.inputs["wheel_speed"][:, n], dtype=np.float64)
+        channels[f"valve_command_{n + 1}"] = np.where(legal, hold + vent, np.nan).astype(np.float64)
+    units = {name: _UNITS.get(name.rstrip("_1234"), "s") for name in channels}
+    return Recording(channels, units)

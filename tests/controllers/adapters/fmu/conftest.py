@@ -1,9 +1,7 @@
 """FMUs of any form: one library in C, described as a test wants it."""
 
 import hashlib
-import os
 import re
-import shutil
 import subprocess
 import zipfile
 from functools import partial
@@ -23,6 +21,8 @@ from uictest.controllers import (
     open_controller,
 )
 from uictest.controllers.adapters.instance import STEP
+
+from ....c_compiler import c_compiler
 
 HERE = Path(__file__).parent
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -96,11 +96,8 @@ def entry(fmi, name, reference, causality, kind, size=1):
 @pytest.fixture(scope="session")
 def fmu_libraries(tmp_path_factory):
     """The library of any_fmu.c for each version of FMI."""
-    compiler = shutil.which(os.environ.get("CC", "gcc"))
-    if compiler is None:
-        pytest.skip("no C compiler")
     folder = tmp_path_factory.mktemp("any")
-    return {fmi: _library(compiler, folder, fmi) for fmi in (2, 3)}
+    return {fmi: _library(c_compiler(), folder, fmi) for fmi in (2, 3)}
 
 
 def _library(compiler, folder, fmi):

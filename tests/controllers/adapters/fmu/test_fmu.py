@@ -337,10 +337,7 @@ def test_parameters_that_do_not_fit_are_refused(make_fmu, open_fmu, fmi, paramet
 def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(make_fmu, started, fmi):
     whole = {2: "Integer", 3: "Int32"}[fmi]
     listed = make_fmu.variables(
-        fmi,
-        text=(50, "parameter", "String"),
-        on=(34, "parameter", "Boolean"),
-        steps=(32, "parameter", whole),
+        fmi, text=(50, "parameter", "String"), on=(34, "parameter", "Boolean"), steps=(32, "parameter", whole)
     )
     del listed["late"], listed["at"]
     ask = started(make_fmu(fmi, listed), {"text": "ten meters", "on": True, "steps": 5.0})

@@ -36,6 +36,7 @@ _CONTACTS = RecordedData(
     bounded=False,
 )
 _FILTERING = ("deceleration_filter", "moving_speed")
+_NEVER_DEVELOPED = "the brake was never fully developed while the train ran"
 _POSITIONS = {1: "leading", 2: "trailing"}
 
 
@@ -81,10 +82,6 @@ def _speed_after(stop: StopMeasures, seconds: float) -> float:
     return before + (seconds - whole) * (after - before) if after > 0.0 else math.nan
 
 
-def _or_nan(adhesion: MeasureValue) -> float:
-    return adhesion.values[0] if adhesion.values else math.nan
-
-
 def utilisation_of_train(stop: StopMeasures) -> MeasureValue:
     """Return the share of a stop that ended at standstill."""
     return _why_no_utilisation(stop) or one_value(stop.adhesion_utilisation)
@@ -104,12 +101,6 @@ def _why_no_utilisation(stop: StopMeasures) -> MeasureValue | None:
     if math.isnan(stop.adhesion_utilisation):
         return unavailable("no wheelset slid, so that the rail never limited the brake")
     return None
-
-
-def _deceleration(extreme: float) -> MeasureValue:
-    if math.isnan(extreme):
-        return unavailable("the brake was never fully developed while the train ran")
-    return one_value(extreme)
 
 
 def deceleration_of_bogie(stop: StopMeasures, deceleration: float) -> MeasureValue:
@@ -169,14 +160,13 @@ MEASURES = (
             "g",
             meaning="initial adhesion by the first phase of the first criterion that defines one, else 3 s",
             overview=Overview("initial adhesion\ng", digits=4, rank=7, short="adhesion\ng", few_digits=3),
-            read=lambda stop, definition: _or_nan(_initial_adhesion(stop, definition)),
+            read=lambda stop, definition: next(iter(_initial_adhesion(stop, definition).values), math.nan),
             defaults={"first_phase_duration": _DEFAULT_FIRST_PHASE},
         ),
     ),
     Measure(
         name="adhesion_utilisation",
         kind="share",
-        unit="%",
         course="settles",
         meaning="work of the rail on the wheelsets over that at the maximum of their creep curves, of each"
         " while it slides or, once it has slid, its WSP holds its pressure down",
@@ -195,10 +185,10 @@ MEASURES = (
     Measure(
         name="wheelset_adhesion_utilisation",
         kind="share",
-        unit="%",
         course="settles",
         meaning="adhesion utilisation of the wheelset; 100 % if it never slid where another one did",
         of_standstill=True,
+        field="adhesion_utilisation",
         read=lambda stop, wheelsets, definition: utilisation_of_wheelsets(stop, wheelsets),
         decided=_LIMITED_BY_RAIL,
         of_wheelsets=True,
@@ -208,38 +198,31 @@ MEASURES = (
             "adhesion_utilisation",
             "1",
             meaning="adhesion utilisation of the wheelset as a share, none if it never slid",
-            read=lambda wheelset: wheelset.adhesion_utilisation,
         ),
     ),
     Measure(
         name="minimum_deceleration",
         kind="acceleration",
-        unit="m/s2",
         course="falls",
         meaning="smallest filtered deceleration under developed braking",
         of_braking=True,
-        read=lambda stop, wheelsets, definition: _deceleration(stop.minimum_deceleration),
+        absent=_NEVER_DEVELOPED,
         decided=ShownWhen(how="extreme", plot="deceleration", field="minimum_deceleration", level=True),
         observed_by=(*_FILTERING, "developed_time"),
         recorded=RecordedData(("speed",), bounded=False),  # the filter has to settle first
-        column=StopColumn(
-            "minimum_deceleration_mps2", "m/s2", read=lambda stop, definition: stop.minimum_deceleration
-        ),
+        column=StopColumn("minimum_deceleration_mps2", "m/s2"),
     ),
     Measure(
         name="maximum_deceleration",
         kind="acceleration",
-        unit="m/s2",
         course="grows",
         meaning="largest filtered deceleration while the train runs",
         of_braking=True,
-        read=lambda stop, wheelsets, definition: _deceleration(stop.maximum_deceleration),
+        absent=_NEVER_DEVELOPED,
         decided=ShownWhen(how="extreme", plot="deceleration", field="maximum_deceleration", level=True),
         observed_by=_FILTERING,
         recorded=RecordedData(("speed",)),
-        column=StopColumn(
-            "maximum_deceleration_mps2", "m/s2", read=lambda stop, definition: stop.maximum_deceleration
-        ),
+        column=StopColumn("maximum_deceleration_mps2", "m/s2"),
     ),
     *map(_of_bogie, _POSITIONS),
 )

@@ -13,7 +13,6 @@ from uictest.core.measures.measure import (
     Wheelsets,
     one_value,
     unavailable,
-    value_per_wheelset,
 )
 from uictest.core.measures.records import StopMeasures
 
@@ -31,12 +30,6 @@ def unreported_deviation(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureVal
     if all(map(math.isnan, longest)):
         return unavailable("no wheelset deviates by more than A + B v from the train's speed v")
     return MeasureValue(tuple(0.0 if math.isnan(each) else each for each in longest))
-
-
-def longest_unfilled(wheelsets: Wheelsets) -> MeasureValue:
-    """Return for how long (s) the valve of each wheelset was not commanded to fill at a stretch."""
-    longest = value_per_wheelset(wheelset.longest_unfilled for wheelset in wheelsets)
-    return unavailable(_NOT_OBSERVED) if all(map(math.isnan, longest.values)) else longest
 
 
 def false_reports(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureValue:
@@ -83,7 +76,6 @@ MEASURES = (
     Measure(
         name="required_report_time",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time from a fault of a kind that is to be reported to the report of its wheelset",
         read=lambda stop, wheelsets, definition: required_report_time(stop, wheelsets),
@@ -95,7 +87,6 @@ MEASURES = (
     Measure(
         name="report_time",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time from a fault of any kind to the report of its wheelset",
         read=lambda stop, wheelsets, definition: report_time(stop, wheelsets),
@@ -107,7 +98,6 @@ MEASURES = (
     Measure(
         name="false_reports",
         kind="number",
-        unit="1",
         course="grows",
         meaning="wheelsets reported that before had no fault, never locked and never deviated by more than"
         " A + B v",
@@ -119,7 +109,6 @@ MEASURES = (
     Measure(
         name="unreported_deviation",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time at a stretch that the speed shown of a wheelset differs by more than A + B v"
         " from the train's, v, and no report says so",
@@ -132,10 +121,9 @@ MEASURES = (
     Measure(
         name="longest_unfilled",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time at a stretch that the WSP valve is not commanded to fill",
-        read=lambda stop, wheelsets, definition: longest_unfilled(wheelsets),
+        absent=_NOT_OBSERVED,
         decided=ShownWhen(how="longest", plot="valves", field="unfilled"),
         of_wheelsets=True,
         observed_by=("moving_speed",),

@@ -49,7 +49,6 @@ MEASURES = (
     Measure(
         name="energy_residual",
         kind="share",
-        unit="%",
         course="settles",
         meaning="magnitude of the energy balance's error over the initial kinetic energy",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.energy_residual)),
@@ -59,31 +58,25 @@ MEASURES = (
             "energy_residual",
             "1",
             meaning="error of the energy balance over the initial kinetic energy, with its sign",
-            read=lambda stop, definition: stop.energy_residual,
         ),
         finite_field="energy_residual",
     ),
     Measure(
         name="air_residual",
         kind="number",
-        unit="1",
         course="settles",
         meaning="magnitude of the air balance's error over the mass taken",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.air_residual)),
         decided=ShownWhen(how="end", plot="pressure"),
         of_simulation=True,
         column=StopColumn(
-            "air_residual",
-            "1",
-            meaning="error of the air balance over the mass taken, with its sign",
-            read=lambda stop, definition: stop.air_residual,
+            "air_residual", "1", meaning="error of the air balance over the mass taken, with its sign"
         ),
         finite_field="air_residual",
     ),
     Measure(
         name="air_energy_residual",
         kind="number",
-        unit="1",
         course="settles",
         meaning="magnitude of the error of the air's energy balance over the enthalpy taken",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.air_energy_residual)),
@@ -93,14 +86,12 @@ MEASURES = (
             "air_energy_residual",
             "1",
             meaning="error of the air's energy balance over the enthalpy taken, with its sign",
-            read=lambda stop, definition: stop.air_energy_residual,
         ),
         finite_field="air_energy_residual",
     ),
     Measure(
         name="longest_lock_of_sound_wheelsets",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time at a stretch that a wheelset without a fault of its own is locked",
         read=lambda stop, wheelsets, definition: longest_lock_of_sound_wheelsets(stop, wheelsets),
@@ -114,7 +105,6 @@ MEASURES = (
     Measure(
         name="longest_release",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time at a stretch that a wheelset with a faulty speed sensor is without brake force,"
         " once the brake is developed",
@@ -127,7 +117,6 @@ MEASURES = (
     Measure(
         name="reference_excess",
         kind="speed",
-        unit="km/h",
         course="grows",
         meaning="largest excess of the controller's reference speed over the train's since the first fault",
         read=lambda stop, wheelsets, definition: reference_excess(stop),
@@ -141,7 +130,6 @@ MEASURES = (
     Measure(
         name="loadcell_saturation",
         kind="time",
-        unit="s",
         course="grows",
         meaning="time for which loadcells are limited by their range, of all calipers together",
         read=lambda stop, wheelsets, definition: one_value(sum(w.loadcell_saturation for w in wheelsets)),
@@ -151,7 +139,6 @@ MEASURES = (
     Measure(
         name="pressure_saturation",
         kind="time",
-        unit="s",
         course="grows",
         meaning="time for which pressure sensors are limited by their range, of all of them together",
         read=lambda stop, wheelsets, definition: one_value(
@@ -163,11 +150,9 @@ MEASURES = (
     Measure(
         name="compensation_misfit",
         kind="number",
-        unit="1",
         course="settles",
         meaning="sum of the differences between the rig and that which its compensation was identified for,"
         " each over its tolerance",
-        read=lambda stop, wheelsets, definition: one_value(stop.compensation_misfit),
         of_simulation=True,
     ),
 )

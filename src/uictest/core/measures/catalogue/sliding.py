@@ -17,7 +17,6 @@ from uictest.core.measures.measure import (
     WheelsetColumn,
     Wheelsets,
     unavailable,
-    value_per_wheelset,
 )
 from uictest.core.measures.records import END_SPEEDS, SLOW_SHARES, StopMeasures
 from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
@@ -69,8 +68,8 @@ def sliding_share_of_wheelsets(
 def _sliding_shares(
     stop: StopMeasures, definition: DefinitionValues, tables: Sequence[Sequence[float]]
 ) -> MeasureValue:
-    first_place = _place_of_slow_time(definition)
-    k = first_place // len(SLOW_SHARES)
+    first = _index_of_slow_time(definition)
+    k = first // len(SLOW_SHARES)
     end = f"{_kilometres_per_hour(definition['end_speed'])}, down to which sliding counts"
     if not stop.initial_speed > END_SPEEDS[k]:
         why = f"the train did not run faster than {end}"
@@ -78,12 +77,12 @@ def _sliding_shares(
     if math.isnan(stop.reached_time[k]):
         return unavailable(f"the train did not come down to {end}")
     duration = float(stop.reached_time[k])
-    places = range(first_place, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
-    return MeasureValue(tuple(sum(float(table[place]) for place in places) / duration for table in tables))
+    indices = range(first, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
+    return MeasureValue(tuple(sum(float(table[index]) for index in indices) / duration for table in tables))
 
 
-def _place_of_slow_time(definition: DefinitionValues) -> int:
-    """Return the place of `sliding_below` in the band of train speeds that ends at `end_speed`."""
+def _index_of_slow_time(definition: DefinitionValues) -> int:
+    """Return the index of `sliding_below` in the band of train speeds that ends at `end_speed`."""
     k = round(definition["end_speed"] / SLIDE_CLASS) - 1
     j = round((definition["sliding_below"] - SLOW_SHARES[0]) / SLOW_SHARE_CLASS)
     return k * len(SLOW_SHARES) + j
@@ -97,17 +96,13 @@ def _kilometres_per_hour(speed: float) -> str:
     return f"{10 * round(speed / SLIDE_CLASS)} km/h"
 
 
-def _share_or_nan(stop: StopMeasures, definition: DefinitionValues) -> float:
-    return next(iter(sliding_share(stop, definition).values), float("nan"))
-
-
 MEASURES = (
     Measure(
         name="maximum_slide_above_cutoff",
         kind="share",
-        unit="%",
         course="grows",
         meaning="largest slide (v - r omega)/v while the train runs faster than the low-speed cut-off",
+        field="maximum_slide",
         read=lambda stop, wheelsets, definition: maximum_slide_above_cutoff(
             stop, wheelsets, definition["low_speed_cutoff"]
         ),
@@ -115,7 +110,7 @@ MEASURES = (
             how="extreme",
             plot="slide",
             field="maximum_slide_above",
-            place=lambda definition: round(definition["low_speed_cutoff"] / SLIDE_CLASS),
+            index=lambda definition: round(definition["low_speed_cutoff"] / SLIDE_CLASS),
             down_to="low_speed_cutoff",
             level=True,
         ),
@@ -133,33 +128,24 @@ MEASURES = (
             overview=Overview(
                 "largest slide\nabove {}, %", digits=1, rank=4, short="max slide %\n> {}", few_digits=0
             ),
-            read=lambda wheelset: wheelset.maximum_slide,
         ),
         finite_field="maximum_slide",
     ),
     Measure(
         name="sliding_duration",
         kind="time",
-        unit="s",
         course="grows",
         meaning="time the wheelset slides in all",
-        read=lambda stop, wheelsets, definition: value_per_wheelset(w.sliding_duration for w in wheelsets),
         decided=ShownWhen(how="intervals", plot="sliding", field="sliding_duration"),
         of_wheelsets=True,
         observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
         recorded=_WHEEL_SPEEDS,
-        column=WheelsetColumn(
-            "sliding_time_s",
-            "s",
-            overview=Overview("sliding\nmax s", digits=1, rank=10),
-            read=lambda wheelset: wheelset.sliding_duration,
-        ),
+        column=WheelsetColumn("sliding_time_s", "s", overview=Overview("sliding\nmax s", digits=1, rank=10)),
         finite_field="sliding_duration",
     ),
     Measure(
         name="sliding_share",
         kind="share",
-        unit="%",
         share_of="of the time",
         course="settles",
         meaning="share of the time from the brake command to `end_speed` in which at least half of the"
@@ -173,21 +159,20 @@ MEASURES = (
         column=StopColumn(
             "sliding_share",
             "1",
-            read=_share_or_nan,
+            read=lambda stop, definition: next(iter(sliding_share(stop, definition).values), math.nan),
             defaults={"sliding_below": 90.0 * PERCENT, "end_speed": 60.0 * KILOMETRE_PER_HOUR},
         ),
     ),
     Measure(
         name="sliding_share_of_wheelsets",
         kind="share",
-        unit="%",
         share_of="of the time",
         course="settles",
         meaning="share of the time from the brake command to `end_speed` in which the wheelset turns below"
         " the share `sliding_below` of the train's speed",
         read=sliding_share_of_wheelsets,
         decided=ShownWhen(
-            how="span", plot="slide", field="slow_time", place=_place_of_slow_time, down_to="end_speed"
+            how="span", plot="slide", field="slow_time", index=_index_of_slow_time, down_to="end_speed"
         ),
         of_wheelsets=True,
         definitions=("sliding_below", "end_speed"),
@@ -197,58 +182,45 @@ MEASURES = (
     Measure(
         name="slid_distance",
         kind="length",
-        unit="m",
         course="grows",
         meaning="distance that the train runs while the wheelset slides or is locked",
         of_braking=True,
-        read=lambda stop, wheelsets, definition: value_per_wheelset(w.slid_distance for w in wheelsets),
         decided=ShownWhen(how="intervals", plot="sliding", field="slid_distance"),
         of_wheelsets=True,
         observed_by=_OF_FLATS,
         recorded=RecordedData(("speed", "wheel_speed_{n}")),
-        column=WheelsetColumn("slid_distance_m", "m", read=lambda wheelset: wheelset.slid_distance),
+        column=WheelsetColumn("slid_distance_m", "m"),
         finite_field="slid_distance",
     ),
     Measure(
         name="contact_energy",
         kind="energy",
-        unit="kJ",
         course="grows",
         meaning="energy that both contacts of the wheelset turn into heat while it slides or is locked",
-        read=lambda stop, wheelsets, definition: value_per_wheelset(w.contact_energy for w in wheelsets),
         decided=ShownWhen(how="intervals", plot="sliding", field="contact_energy"),
         of_wheelsets=True,
         observed_by=_OF_FLATS,
         recorded=RecordedData(("speed", "wheel_speed_{n}", "adhesion_{n}", "wheel_load_{n}"), computed=True),
-        column=WheelsetColumn("contact_energy_kj", "kJ", read=lambda wheelset: wheelset.contact_energy),
+        column=WheelsetColumn("contact_energy_kj", "kJ"),
         finite_field="contact_energy",
     ),
     Measure(
         name="locked_time",
         kind="time",
-        unit="s",
         course="grows",
         meaning="time the wheelset is locked in all",
-        read=lambda stop, wheelsets, definition: value_per_wheelset(w.locked_time for w in wheelsets),
         decided=ShownWhen(how="intervals", plot="locked", field="locked_time"),
         of_wheelsets=True,
         observed_by=_OF_LOCKS,
         recorded=_WHEEL_SPEEDS,
-        column=WheelsetColumn(
-            "locked_time_s",
-            "s",
-            overview=Overview("locked\nmax s", digits=1, rank=9),
-            read=lambda wheelset: wheelset.locked_time,
-        ),
+        column=WheelsetColumn("locked_time_s", "s", overview=Overview("locked\nmax s", digits=1, rank=9)),
         finite_field="locked_time",
     ),
     Measure(
         name="longest_lock",
         kind="time",
-        unit="s",
         course="grows",
         meaning="longest time the wheelset is locked at a stretch",
-        read=lambda stop, wheelsets, definition: value_per_wheelset(w.longest_lock for w in wheelsets),
         decided=ShownWhen(how="longest", plot="locked", field="lock"),
         of_wheelsets=True,
         observed_by=_OF_LOCKS,

@@ -13,6 +13,7 @@ from uictest.core.measures.measure import (
     RecordedData,
     ShownWhen,
     StopColumn,
+    Wheelsets,
     one_value,
     unavailable,
 )
@@ -59,7 +60,9 @@ def corrected_distance(distance: float, stop: StopMeasures, conditions: Definiti
     return float(distance * ((nominal / stop.initial_speed) ** 2 / (1.0 - of_gradient)))
 
 
-def _corrected(stop: StopMeasures, conditions: DefinitionValues) -> MeasureValue:
+def _corrected_braking_distance(
+    stop: StopMeasures, wheelsets: Wheelsets, conditions: DefinitionValues
+) -> MeasureValue:
     (distance,) = braking_distance(stop).values
     return one_value(corrected_distance(distance, stop, conditions))
 
@@ -85,11 +88,6 @@ def standstill(stop: StopMeasures) -> MeasureValue:
     return one_value(1.0) if stop.stopped else unavailable("no standstill")
 
 
-def build_up_time(stop: StopMeasures) -> MeasureValue:
-    """Return the equivalent build-up time in s, from the brake command."""
-    return unavailable(_NEVER) if math.isnan(stop.build_up_time) else one_value(stop.build_up_time)
-
-
 def deceleration_distance(stop: StopMeasures) -> MeasureValue:
     """Return the distance (m) from the equivalent build-up time to standstill or, before it, up to now."""
     if math.isnan(stop.build_up_time):
@@ -106,37 +104,46 @@ def developed_deceleration(stop: StopMeasures) -> MeasureValue:
     return one_value(constant_deceleration(stop.initial_speed, distance))
 
 
-def _final_deceleration_distance(stop: StopMeasures) -> float:
-    return stop.braking_distance - stop.build_up_distance
+_NO_REFERENCE = RecordedData(("friction of the rail",), when="never", computed=True)
+NO_REFERENCE = "no reference distance"  # how a reason begins
+_WITHOUT_REFERENCE = (
+    f"{NO_REFERENCE}: it is that of a simulated car alone, without faults and sand, stopped by the adhesion"
+    " of its wheels"
+)
+
+
+def distance_over_reference(stop: StopMeasures) -> MeasureValue:
+    """Return the braking distance (up to now) over the reference distance."""
+    (distance,) = braking_distance(stop).values
+    value = _over_reference(distance, stop)
+    return unavailable(_WITHOUT_REFERENCE) if math.isnan(value) else one_value(value)
+
+
+def _over_reference(distance: float, stop: StopMeasures) -> float:
+    return distance / stop.reference_distance if 0.0 < stop.reference_distance < math.inf else math.nan
 
 
 MEASURES = (
     Measure(
         name="uncorrected_braking_distance",
         kind="length",
-        unit="m",
         course="grows",
         meaning="distance from the brake command to standstill, as it was run",
         of_standstill=True,
+        field="braking_distance",
         read=lambda stop, wheelsets, definition: braking_distance(stop),
         decided=_AT_STANDSTILL,
         recorded=_DISTANCE,
-        column=StopColumn(
-            "braking_distance_m",
-            "m",
-            overview=Overview("distance\nm", digits=1, rank=3),
-            read=lambda stop, definition: stop.braking_distance,
-        ),
+        column=StopColumn("braking_distance_m", "m", overview=Overview("distance\nm", digits=1, rank=3)),
     ),
     Measure(
         name="braking_distance",
         kind="length",
-        unit="m",
         course="grows",
         meaning="distance from the brake command to standstill, corrected to nominal speed and level track",
         of_standstill=True,
         corrected=("nominal_speed", "gradient"),
-        read=lambda stop, wheelsets, definition: _corrected(stop, definition),
+        read=_corrected_braking_distance,
         decided=_AT_STANDSTILL,
         recorded=_DISTANCE,
         column=StopColumn(
@@ -149,24 +156,17 @@ MEASURES = (
     Measure(
         name="braking_time",
         kind="time",
-        unit="s",
         course="grows",
         meaning="time from the brake command to standstill",
         of_standstill=True,
         read=lambda stop, wheelsets, definition: braking_time(stop),
         decided=ShownWhen(how="end", plot="speed", across="speed"),
         recorded=RecordedData(("speed",), when="ends"),
-        column=StopColumn(
-            "braking_time_s",
-            "s",
-            overview=Overview("time\ns", digits=1, rank=6),
-            read=lambda stop, definition: stop.braking_time,
-        ),
+        column=StopColumn("braking_time_s", "s", overview=Overview("time\ns", digits=1, rank=6)),
     ),
     Measure(
         name="mean_deceleration",
         kind="acceleration",
-        unit="m/s2",
         course="falls",
         meaning="v0^2 / (2 s), s the uncorrected braking distance from v0",
         of_standstill=True,
@@ -183,7 +183,6 @@ MEASURES = (
     Measure(
         name="standstill",
         kind="number",
-        unit="1",
         course="settles",
         meaning="1 where the train came to a standstill",
         of_standstill=True,
@@ -194,11 +193,10 @@ MEASURES = (
     Measure(
         name="build_up_time",
         kind="time",
-        unit="s",
         course="settles",
         meaning="equivalent build-up time T_react + T_increase / 2 of the brake-line pressure, which begins"
         " to rise T_react after the brake command and has built up T_increase later",
-        read=lambda stop, wheelsets, definition: build_up_time(stop),
+        absent=_NEVER,
         decided=ShownWhen(
             how="span",
             plot="pressure",
@@ -208,12 +206,11 @@ MEASURES = (
         ),
         observed_by=_OF_BUILD_UP,
         recorded=RecordedData(("brake_line_pressure",), bounded=False),
-        column=StopColumn("build_up_time_s", "s", read=lambda stop, definition: stop.build_up_time),
+        column=StopColumn("build_up_time_s", "s"),
     ),
     Measure(
         name="deceleration_distance",
         kind="length",
-        unit="m",
         course="grows",
         meaning="uncorrected braking distance less the distance run until the equivalent build-up time",
         of_standstill=True,
@@ -224,13 +221,12 @@ MEASURES = (
         column=StopColumn(
             "deceleration_distance_m",
             "m",
-            read=lambda stop, definition: _final_deceleration_distance(stop),
+            read=lambda stop, definition: stop.braking_distance - stop.build_up_distance,
         ),
     ),
     Measure(
         name="developed_deceleration",
         kind="acceleration",
-        unit="m/s2",
         course="falls",
         meaning="v0^2 / (2 s), s the deceleration distance",
         of_standstill=True,
@@ -242,8 +238,33 @@ MEASURES = (
             "developed_deceleration_mps2",
             "m/s2",
             read=lambda stop, definition: constant_deceleration(
-                stop.initial_speed, _final_deceleration_distance(stop)
+                stop.initial_speed, stop.braking_distance - stop.build_up_distance
             ),
+        ),
+    ),
+    Measure(
+        name="reference_distance",
+        kind="length",
+        course="settles",
+        meaning="shortest distance at any slide up to 40 % that all wheelsets keep on the same rail",
+        of_standstill=True,
+        absent=_WITHOUT_REFERENCE,
+        recorded=_NO_REFERENCE,
+        column=StopColumn("reference_distance_m", "m", overview=Overview("reference\nm", digits=1, rank=4)),
+    ),
+    Measure(
+        name="distance_over_reference",
+        kind="number",
+        course="grows",
+        meaning="uncorrected braking distance over the reference distance",
+        of_standstill=True,
+        read=lambda stop, wheelsets, definition: distance_over_reference(stop),
+        decided=ShownWhen(how="end", plot="speed"),
+        recorded=_NO_REFERENCE,
+        column=StopColumn(
+            "distance_over_reference",
+            "1",
+            read=lambda stop, definition: _over_reference(stop.braking_distance, stop),
         ),
     ),
 )

@@ -1,12 +1,12 @@
-from .cells import Cells as Cells
-from .csv_text import INTERVAL as INTERVAL
-from .dates import (
+from .cells import (
     DAY as DAY,
+    Cells as Cells,
     are_dates as are_dates,
     is_clock as is_clock,
     seconds_of as seconds_of,
     written_as as written_as,
 )
+from .csv_text import INTERVAL as INTERVAL
 from .file_formats import (
     FORMATS as FORMATS,
     MissingExtraError as MissingExtraError,

@@ -1,14 +1,17 @@
-"""Cells of a text table: numbers as its dialect writes them, marks of missing samples, and texts."""
+"""Cells of a text table: numbers as its dialect writes them, missing samples, texts, dates and clocks."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import product
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from uictest.core.recording.formats.file_formats import UnreadableError
 
 MISSING: Final = (
     *("", "-", "nan", "NaN", "NAN", "-nan", "-NaN", "NA", "N/A", "n/a", "#N/A", "#NA", "<NA>", "#N/A N/A"),
@@ -17,8 +20,8 @@ MISSING: Final = (
 """What every table may write for a sample that is missing; its dialect may add others."""
 LONGEST_TEXT: Final = 64
 """Characters of a text that are kept; chosen."""
-MOST_PLACED: Final = 20
-"""Different texts of a channel whose first places are kept; chosen."""
+MOST_LOCATED: Final = 20
+"""Different texts of a channel of which it is kept where they first stand; chosen."""
 _BLANKS: Final = "\u00a0\u2009\u202f"
 """Blanks that stand for the plain one between groups of digits."""
 _APOSTROPHE: Final = "\u2019"
@@ -55,7 +58,7 @@ class TextColumn(NamedTuple):
             return {}
         texts, rows = np.unique(self.texts, return_index=True)
         in_order = sorted(zip(rows.tolist(), texts.tolist(), strict=True))
-        return {text: row for row, text in in_order[:MOST_PLACED] if text}
+        return {text: row for row, text in in_order[:MOST_LOCATED] if text}
 
 
 def joined(columns: Sequence[TextColumn]) -> TextColumn:
@@ -63,7 +66,7 @@ def joined(columns: Sequence[TextColumn]) -> TextColumn:
     numbers = np.concatenate([column.numbers for column in columns])
     if all(column.texts is None for column in columns):
         return TextColumn(numbers, None)
-    parts = [np.zeros(len(each.numbers), "U1") if each.texts is None else each.texts for each in columns]
+    parts = [np.zeros(len(part.numbers), "U1") if part.texts is None else part.texts for part in columns]
     return TextColumn(numbers, np.concatenate(parts))
 
 
@@ -116,7 +119,7 @@ class Cells:
         texts = pc.if_else(pc.or_(missing, number), "", pc.utf8_slice_codeunits(stripped, 0, LONGEST_TEXT))
         return TextColumn(numbers, np.array(texts.to_pylist(), dtype=np.str_))
 
-    def refusal(self, text: str, place: str = "") -> str:
+    def refusal(self, text: str, location: str = "") -> str:
         """Return that a cell is no number, and what to write in the channel map so that it is read."""
         stripped, sign = text.strip(), grouping_of(text)
         marks = json.dumps([*self._missing, stripped], ensure_ascii=False)
@@ -132,7 +135,8 @@ class Cells:
             otherwise = ""
         elif self._decimal == "," and Cells(".").is_number(stripped):
             remedy = 'if all its decimals stand behind a point, write csv: {decimal: "."}'
-        return f"{place}{': ' if place else ''}{text!r} is no number: {remedy} in the channel map{otherwise}"
+        where = f"{location}: " if location else ""
+        return f"{where}{text!r} is no number: {remedy} in the channel map{otherwise}"
 
 
 def grouping_of(text: str) -> str:
@@ -140,3 +144,97 @@ def grouping_of(text: str) -> str:
     match = _GROUPED.fullmatch(text.strip())
     sign = match[1] if match else ""
     return " " if sign and sign in _BLANKS else sign.replace(_APOSTROPHE, "'")
+
+
+_ISO: Final = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d.*)?")
+_DAYS: Final = ("%d.%m.%Y", "%d/%m/%Y", "%d-%m-%Y", "%m/%d/%Y", "%m-%d-%Y", "%Y/%m/%d", "%Y-%m-%d")
+_SHORT_DAYS: Final = ("%d.%m.%y", "%d/%m/%y", "%m/%d/%y", "%Y%m%d", "%d-%b-%Y", "%d %b %Y", "%b %d %Y")
+_CLOCKS: Final = ("%H:%M:%S.%f", "%H:%M:%S,%f", "%H:%M:%S:%f", "%H:%M", "%I:%M:%S.%f %p", "%I:%M:%S,%f %p")
+"""Usual ways of writing a date and the time of a day, of which one is proposed; day first, where both fit."""
+_FRACTION: Final = re.compile(r"[.,:;]?%f")
+_DAY_DIRECTIVES: Final = ("%d", "%j", "%Y", "%y", "%c", "%x")
+DAY: Final = 86_400.0
+_HALF_A_DAY: Final = 0.5 * DAY
+"""s that a clock alone must go back to have passed midnight; chosen."""
+_SAMPLED: Final = 200
+"""Cells by which a way of writing is proposed; chosen."""
+
+
+def seconds_of(texts: NDArray[Any], written: str) -> NDArray[np.float64]:
+    """Return times as Unix time, a clock without a date as time since its first midnight, both in s.
+
+    Args:
+        texts: of dates or clocks, one a sample; an empty one is missing and becomes NaN.
+        written: how, in the directives of C's strftime; empty: as ISO 8601.
+
+    Raises UnreadableError that shows the first text written otherwise and what to write in a channel map.
+    """
+    import pandas as pd
+
+    stripped = pd.Series(np.char.strip(texts))
+    filled = stripped != ""
+    stamps = _stamps(stripped, written or "ISO8601")
+    if (unread := filled & stamps.isna()).any():
+        raise UnreadableError(
+            _advice(list(map(str, stripped[filled])), str(stripped[unread].iloc[0]), written)
+        )
+    if not is_clock(written):
+        return _since(stamps, pd.Timestamp(0, tz="UTC"))
+    return over_midnight(_since(stamps, pd.Timestamp("1900-01-01", tz="UTC")))
+
+
+def is_clock(written: str) -> bool:
+    """Return whether a way of writing has a time of the day and no date."""
+    return bool(written) and not any(directive in written for directive in _DAY_DIRECTIVES)
+
+
+def over_midnight(clock: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return times of the day, s, that go on where they begin anew at midnight."""
+    passed = np.nan_to_num(np.diff(clock, prepend=clock[:1])) < -_HALF_A_DAY
+    return clock + DAY * np.cumsum(passed)
+
+
+def _stamps(texts: Any, written: str) -> Any:
+    """Return time stamps; a fraction of a second may be left out where it is none."""
+    import pandas as pd
+
+    stamps = pd.to_datetime(texts, format=written, errors="coerce", utc=True)
+    if (whole := _FRACTION.sub("", written)) != written and stamps.isna().any():
+        stamps = stamps.fillna(pd.to_datetime(texts, format=whole, errors="coerce", utc=True))
+    return stamps
+
+
+def _since(stamps: Any, origin: Any) -> NDArray[np.float64]:
+    return np.asarray((stamps - origin).dt.total_seconds(), dtype=np.float64)
+
+
+def are_dates(samples: NDArray[Any]) -> bool:
+    """Return whether samples are texts of dates as ISO 8601 writes them, by the first that is not empty."""
+    if samples.dtype.kind != "U":
+        return False
+    first = next((text for text in samples[:_SAMPLED].tolist() if text.strip()), "")
+    return _ISO.fullmatch(first.strip()) is not None
+
+
+def written_as(texts: Sequence[str]) -> Iterator[str]:
+    """Yield the usual ways in which texts may be written, the likeliest first."""
+    import pandas as pd
+
+    sampled = pd.Series([text.strip() for text in texts if text.strip()][:_SAMPLED], dtype=object)
+    days = ("".join(pair) for pair in product((*_DAYS, *_SHORT_DAYS), (" ", "T", "_")))
+    for way in map("".join, product((*days, ""), _CLOCKS)):
+        # Most ways are ruled out by the first text.
+        if len(sampled) and _stamps(sampled[:1], way).notna().all() and _stamps(sampled, way).notna().all():
+            yield way
+
+
+def _advice(texts: Sequence[str], wrong: str, written: str) -> str:
+    way = next(written_as(texts), "")
+    if written and not way:
+        return f"{wrong!r} is not written as csv: {{dates: {json.dumps(written)}}} says"
+    if way:
+        return f"{wrong!r} is a date or a clock: write csv: {{dates: {json.dumps(way)}}} in the channel map"
+    return (
+        f"{wrong!r} is no date as 2026-05-31T12:00:00.000: write in the channel map how dates are written,"
+        ' as in csv: {dates: "%d.%m.%Y %H:%M:%S.%f"}'
+    )

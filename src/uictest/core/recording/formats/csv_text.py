@@ -6,22 +6,27 @@ import csv
 import io
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence, Set
+from dataclasses import dataclass, replace
 from functools import partial
+from itertools import zip_longest
 from pathlib import Path
-from typing import TextIO
+from typing import Final, TextIO
 
-from uictest.core.recording.formats.cells import LONGEST_TEXT, Cells, TextColumn, joined
-from uictest.core.recording.formats.file_formats import MOST_CHANNELS, MOST_VALUES, UnreadableError
+import numpy as np
+
+from uictest.core.recording.formats.cells import LONGEST_TEXT, Cells, TextColumn, grouping_of, joined
+from uictest.core.recording.formats.file_formats import MOST_CHANNELS, MOST_VALUES, UnreadableError, facts_in
 from uictest.core.recording.formats.layout import (
     BYTE_ORDER_MARK,
     COMMENT,
     END_OF_HEADER,
+    OF_WINDOWS,
     Dialect,
     TableLayout,
     cells_of,
     encoding_of,
+    likely_layout,
     names_and_units_of,
     table_layout,
     undecodable,
@@ -71,13 +76,12 @@ class TextTable:
         """What reads its cells."""
         return self.dialect.cells
 
-    def line_of(self, name: str, text: str) -> str:
+    def location_of(self, name: str, text: str) -> str:
         """Return where a text first stands in a channel, for a reader."""
         k = self.names.index(name)
-        found = (
-            number for number, row in self.rows() if "".join(row[k : k + 1]).strip()[:LONGEST_TEXT] == text
-        )
-        return f"line {next(found)}, column {k + 1}"
+        cells = ((number, "".join(row[k : k + 1])) for number, row in self.rows())
+        line = next(number for number, cell in cells if cell.strip()[:LONGEST_TEXT] == text)
+        return f"line {line}, column {k + 1}"
 
     def require_complete(self, numbers: Sequence[str]) -> None:
         """Raise UnreadableError with the first line that is too short, or has no number in such a channel."""
@@ -148,13 +152,13 @@ class TextTable:
             )
 
 
-def add_texts(group: Group, name: str, column: TextColumn, places: dict[str, str]) -> None:
-    """Add a column to a group; `places` are those of its first texts."""
+def add_texts(group: Group, name: str, column: TextColumn, locations: dict[str, str]) -> None:
+    """Add a column to a group; `locations` are those of its first texts."""
     group.channels[name] = column.samples
     if column.texts is not None:
         group.numbers[name] = column.numbers
-    if places:
-        group.first_texts[name] = places
+    if locations:
+        group.first_texts[name] = locations
 
 
 def opened(path: Path, dialect: Dialect) -> TextTable:
@@ -179,6 +183,8 @@ def read(path: Path, dialect: Dialect | None = None) -> Contents:
     Raises UnreadableError where the file is no table of this dialect.
     """
     dialect = dialect or Dialect()
+    if dialect.by_itself:
+        return _read_by_itself(path, dialect)
     try:
         table = opened(path, dialect)
         group = _group(table)
@@ -186,7 +192,8 @@ def read(path: Path, dialect: Dialect | None = None) -> Contents:
         raise UnreadableError(undecodable(path, encoding_of(path, dialect.encoding))) from error
     except csv.Error as error:
         raise UnreadableError(f"not a table: {error}") from error
-    return Contents((group,), {**_facts(table.heading), **_interval(table)}, dialect=dialect)
+    facts = facts_in(line.removeprefix(COMMENT) for line in table.heading if line.startswith(COMMENT))
+    return Contents((group,), {**facts, **_interval(table)}, dialect=dialect)
 
 
 def encoded(recording: Recording) -> bytes:
@@ -266,8 +273,10 @@ def _group(table: TextTable) -> Group:
     group = Group("", {}, units)
     for k, name in enumerate(table.names):
         column = joined([block[k] for block in blocks])
-        places = {text: f"line {lines[row]}, column {k + 1}" for text, row in column.first_rows().items()}
-        add_texts(group, name, column, places)
+        first_rows = column.first_rows().items()
+        add_texts(
+            group, name, column, {text: f"line {lines[row]}, column {k + 1}" for text, row in first_rows}
+        )
     return group
 
 
@@ -280,12 +289,83 @@ def _interval(table: TextTable) -> dict[str, str]:
     return {}
 
 
-def _facts(heading: Sequence[str]) -> dict[str, str]:
-    return dict(_fact_lines(heading))
+_MOST_MARKS: Final = 3
+"""Different texts among the numbers of a channel that are taken for marks of missing samples; chosen."""
 
 
-def _fact_lines(heading: Sequence[str]) -> Iterator[tuple[str, str]]:
-    for line in heading:
-        key, colon, value = line.removeprefix(COMMENT).partition(":")
-        if line.startswith(COMMENT) and colon and key.strip():
-            yield key.strip(), value.strip()
+def _read_by_itself(path: Path, stated: Dialect) -> Contents:
+    """Read a table by the dialect that it shows, where `stated` does not read it.
+
+    `Contents.dialect` says which, `guesses` why a setting of it is one. Raises UnreadableError where there is
+    no table.
+    """
+    dialect, guesses = _of_heading(path, replace(stated, by_itself=False))
+    contents, refined = read(path, dialect), dialect
+    while (more := _of_cells(contents.groups[0], refined)) != refined:
+        contents, refined = read(path, more), more
+    for setting, reason in (("thousands", "groups of three digits"), ("missing", "texts among numbers")):
+        if getattr(refined, setting) != getattr(dialect, setting):
+            guesses[setting] = reason
+    return replace(contents, guesses=guesses)
+
+
+def _of_heading(path: Path, stated: Dialect) -> tuple[Dialect, dict[str, str]]:
+    """Return the dialect that the first lines of a file show, and what of it is a guess."""
+    guesses: dict[str, str] = {}
+    try:
+        heading = heading_of(path, encoding_of(path, stated.encoding), stated)
+    except UnicodeError as error:
+        if stated.encoding == OF_WINDOWS:
+            raise UnreadableError(undecodable(path, OF_WINDOWS)) from error
+        dialect, guesses = _of_heading(path, replace(stated, encoding=OF_WINDOWS))
+        return dialect, {**guesses, "encoding": f"it is not {stated.encoding}"}
+    layout, likely = likely_layout(heading, stated)
+    if layout.alike:
+        guesses["header_line"] = f"or {', '.join(map(str, layout.alike))}, which are as wide"
+        likely = replace(likely, header_line=layout.header_line)
+    samples = (line for line in heading[layout.first_line - 1 :] if not line.startswith(COMMENT))
+    rows = [cells_of(line, likely.delimiter) for line in samples]
+    columns = [{cell.lstrip("+-") for cell in column} for column in zip_longest(*rows, fillvalue="")]
+    if not likely.thousands and _may_group_digits(columns, likely.decimal):
+        if not _groups_digits(columns, likely.decimal):
+            return likely, {**guesses, "decimal": "or it groups digits: three stand behind it in all numbers"}
+        other = "," if likely.decimal == "." else "."
+        guesses["thousands"] = f"it stands in numbers from 1{likely.decimal}000 on alone"
+        likely = replace(likely, thousands=likely.decimal, decimal=other)
+    return likely, guesses
+
+
+def _may_group_digits(columns: Sequence[Set[str]], sign: str) -> bool:
+    """Return whether all numbers with a sign have it where it would group their digits."""
+    numbers = (cell for column in columns for cell in column if cell.replace(sign, "").isdigit())
+    signed = [cell for cell in numbers if sign in cell]
+    return bool(signed) and all(grouping_of(cell) == sign and not cell.startswith("0") for cell in signed)
+
+
+def _groups_digits(columns: Sequence[Set[str]], sign: str) -> bool:
+    """Return whether a column has numbers with the sign beside smaller ones without it."""
+    return any(
+        any(sign in cell for cell in column) and any(cell.isdigit() and len(cell) <= 3 for cell in column)
+        for column in columns
+    )
+
+
+def _of_cells(group: Group, dialect: Dialect) -> Dialect:
+    """Return a dialect with the decimal comma, groups of digits or marks that texts among numbers show."""
+    texts_among_numbers = [text for name in group.numbers for text in group.first_texts.get(name, {})]
+    comma = Cells(",")
+    if dialect.decimal == "." and any(
+        comma.is_number(text) and not grouping_of(text) for text in texts_among_numbers
+    ):
+        return replace(dialect, decimal=",")
+    for name, numbers in group.numbers.items():
+        texts = group.channels[name]
+        signs = {text: grouping_of(text) for text in np.unique(texts).tolist() if text}
+        grouped = set(signs.values()) - {"", dialect.decimal}
+        if len(grouped) == 1 and not dialect.thousands:
+            dialect = replace(dialect, thousands=grouped.pop())
+        marks = [text for text in signs if dialect.cells.is_text(text)]
+        rare = 2 * np.isin(texts, marks).sum() < np.isfinite(numbers).sum() and len(marks) <= _MOST_MARKS
+        if rare and not any(len(mark) == 1 and mark.isalpha() for mark in marks):  # which names a state
+            dialect = replace(dialect, missing=(*dialect.missing, *marks))
+    return dialect

@@ -70,6 +70,12 @@ def distinct(name: str, channels: Container[str]) -> str:
     return next(other for k in itertools.count(2) if (other := f"{name} ({k})") not in channels)
 
 
+def facts_in(lines: Iterable[str]) -> dict[str, str]:
+    """Return what lines of remarks such as `train: 4711` state, by name."""
+    pairs = (line.partition(":") for line in lines)
+    return {name.strip(): fact.strip() for name, colon, fact in pairs if colon and name.strip()}
+
+
 class FileFormat(NamedTuple):
     """A format of measurement files.
 

@@ -112,7 +112,9 @@ def likely_layout(heading: Sequence[str], dialect: Dialect) -> tuple[TableLayout
 
     Raises UnreadableError for a file without a table.
     """
-    _reject_width(heading)
+    for number, line in enumerate(heading, start=1):
+        if (cells := 1 + max(map(line.count, _SEPARATORS))) > MOST_CHANNELS:
+            raise UnreadableError(f"line {number} has {cells} cells; at most {MOST_CHANNELS} are read")
     lines = dict(_content(heading, dialect))
     if not lines:
         raise UnreadableError("the file holds no table: every line is blank or a comment")
@@ -150,13 +152,6 @@ def _begin(heading: Sequence[str]) -> int:
 def cells_of(line: str, delimiter: str) -> list[str]:
     """Return the cells of one line, without blanks around them. Raises csv.Error."""
     return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
-
-
-def _reject_width(heading: Sequence[str]) -> None:
-    for number, line in enumerate(heading, start=1):
-        cells = 1 + max(map(line.count, _SEPARATORS))
-        if cells > MOST_CHANNELS:
-            raise UnreadableError(f"line {number} has {cells} cells; at most {MOST_CHANNELS} are read")
 
 
 def _sample_row(lines: Mapping[int, str], dialect: Dialect) -> tuple[list[str], Dialect]:
@@ -252,9 +247,9 @@ def names_and_units_of(headings: Sequence[str]) -> list[tuple[str, str]]:
     Brackets that tell channels apart, as in `v[0]`, `v[1]`, are part of the names.
     """
     parts = [_name_and_brackets(heading.strip()) for heading in headings]
-    kept = {name.strip() for name, text in parts if not _is_unit(name, text)}
+    whole = {name.strip() for name, text in parts if not _is_unit(name, text)}
     return [
-        (heading.strip(), "") if name.strip() in kept else (name.strip(), text.strip())
+        (heading.strip(), "") if name.strip() in whole else (name.strip(), text.strip())
         for heading, (name, text) in zip(headings, parts, strict=True)
     ]
 

@@ -122,7 +122,7 @@ def _from_scipy(value: Any) -> Any:
         is_function = isinstance(value, MatlabFunction)
         return _Unread(getattr(value, "classname", "function handle" if is_function else "sparse matrix"))
     if names := value.dtype.names:
-        return [{name: _from_scipy(each[name]) for name in names} for each in value.ravel(order="F")]
+        return [{name: _from_scipy(record[name]) for name in names} for record in value.ravel(order="F")]
     if value.dtype.kind == "U":
         return "\n".join(map(str, value.ravel()))
     unread = {"O": "cell array", "c": "complex array"}
@@ -144,7 +144,7 @@ def _from_hdf5(item: Any) -> Any:
     if "MATLAB_object_decode" in item.attrs or "MATLAB_sparse" in item.attrs:
         return _Unread("sparse matrix" if "MATLAB_sparse" in item.attrs else kind)
     if not hasattr(item, "dtype"):
-        columns = [[_from_hdf5(each) for each in _elements(field)] for field in item.values()]
+        columns = [[_from_hdf5(element) for element in _elements(field)] for field in item.values()]
         return [dict(zip(item, record, strict=True)) for record in zip(*columns, strict=True)]
     if "MATLAB_empty" in item.attrs:
         return "" if kind == "char" else np.empty(0)
@@ -160,7 +160,7 @@ def _from_hdf5(item: Any) -> Any:
 def _elements(field: Any) -> list[Any]:
     """Return the values of a field; those of a structure array are references without a class."""
     is_list = getattr(field, "dtype", None) == np.dtype("O") and "MATLAB_class" not in field.attrs
-    return [field.file[each] for each in field[()].ravel()] if is_list else [field]
+    return [field.file[reference] for reference in field[()].ravel()] if is_list else [field]
 
 
 def _of_to_file_block(variables: Mapping[str, Any]) -> list[_Channel]:
@@ -180,9 +180,9 @@ def _channels_of(name: str, value: Any, skipped: dict[str, str], **stated: Any) 
         case [{"X": [{"Data": _}, *_], "Y": [{"Data": _}, *_]} as capture]:
             yield from _of_controldesk(name, capture, skipped)
         case list():
-            for place, structure in _records(name, value):
+            for expression, structure in _records(name, value):
                 for field, inner in structure.items():
-                    yield from _channels_of(f"{place}.{field}", inner, skipped)
+                    yield from _channels_of(f"{expression}.{field}", inner, skipped)
         case np.ndarray() if value.size > 1:
             yield from _columns(name, value, **stated)
         case _Unread():
@@ -198,17 +198,18 @@ def _columns(name: str, values: Any, unit: str = "", time: Samples | None = None
     shape = values.shape
     axis = shape.index(len(time)) if time is not None and len(time) in shape else int(np.argmax(shape))
     columns = np.moveaxis(values, axis, 0).reshape((shape[axis], -1), order="F").T
-    own = time if time is not None and len(time) == shape[axis] else None
+    if time is not None and len(time) != shape[axis]:
+        time = None
     for k, samples in enumerate(columns.astype(np.float64, order="C"), start=1):
-        yield _Channel(f"{name}[{k}]" if len(columns) > 1 else name, samples, unit, own)
+        yield _Channel(f"{name}[{k}]" if len(columns) > 1 else name, samples, unit, time)
 
 
 def _of_simulink(name: str, log: Mapping[str, Any], skipped: dict[str, str]) -> Iterator[_Channel]:
     """Yield the channels of a Structure or a Structure With Time."""
     time = _vector(log.get("time"))
-    for place, signal in _records(f"{name}.signals", log["signals"]):
+    for expression, signal in _records(f"{name}.signals", log["signals"]):
         block = _text(signal.get("blockName")).rpartition("/")[2]
-        label = _text(signal.get("label")) or block or f"{place}.values"
+        label = _text(signal.get("label")) or block or f"{expression}.values"
         yield from _channels_of(label, signal["values"], skipped, time=time)
 
 
@@ -217,16 +218,17 @@ def _of_controldesk(name: str, capture: Mapping[str, Any], skipped: dict[str, st
     sizes = [recorded_unit_size(_text(axis.get("Unit")) or "s", "s") for axis in capture["X"]]
     axes = zip(capture["X"], sizes, strict=True)
     times = [_vector(axis["Data"], size) if size else None for axis, size in axes]
-    for place, signal in _records(f"{name}.Y", capture["Y"]):
+    for expression, signal in _records(f"{name}.Y", capture["Y"]):
         axis = int(np.ravel(signal["XIndex"])[0]) - 1 if len(times) > 1 else 0
-        label, unit = _text(signal.get("Name")) or f"{place}.Data", _text(signal.get("Unit"))
+        label, unit = _text(signal.get("Name")) or f"{expression}.Data", _text(signal.get("Unit"))
         yield from _channels_of(label, signal["Data"], skipped, unit=unit, time=times[axis])
 
 
 def _records(name: str, structures: list[dict[str, Any]]) -> Iterable[tuple[str, dict[str, Any]]]:
     """Return the structures of an array, each with its expression in MATLAB."""
-    places = [f"{name}({k})" for k in range(1, len(structures) + 1)] if len(structures) > 1 else [name]
-    return zip(places, structures, strict=False)
+    several = len(structures) > 1
+    expressions = [f"{name}({k})" for k in range(1, len(structures) + 1)] if several else [name]
+    return zip(expressions, structures, strict=False)
 
 
 def _groups(channels: Iterable[_Channel], units: Mapping[str, str]) -> Iterator[Group]:

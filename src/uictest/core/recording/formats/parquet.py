@@ -1,23 +1,104 @@
-"""Parquet files, this program's own and others'."""
+"""Recordings as Parquet files: units beside the channels and in the schema, facts in the schema."""
 
 from __future__ import annotations
 
+import io
 import json
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from uictest.core.recording.formats.cells import LONGEST_TEXT
-from uictest.core.recording.formats.dates import over_midnight
+from uictest.core.recording.formats.cells import LONGEST_TEXT, over_midnight
 from uictest.core.recording.formats.file_formats import UnreadableError, check_size
 from uictest.core.recording.formats.layout import names_and_units_of
-from uictest.core.recording.parquet import parquet_bytes
 from uictest.core.recording.recording import Contents, Group, Recording, Samples
 
 if TYPE_CHECKING:
     import pyarrow as pa
+
+
+SCHEMA = "uictest/recording/1"
+_SCHEMA, _UNITS, _METADATA, _UNIT = b"uictest.schema", b"uictest.units", b"uictest.metadata", b"unit"
+
+
+def parquet_bytes(recording: Recording) -> bytes:
+    """Return a recording as a Parquet file: the same recording gives the same bytes."""
+    return channels_bytes(recording.channels, recording.units, recording.metadata, {_SCHEMA: SCHEMA})
+
+
+def channels_bytes(
+    channels: Mapping[str, NDArray[Any]],
+    units: Mapping[str, str],
+    metadata: Mapping[str, str],
+    marks: Mapping[bytes, str] | None = None,
+) -> bytes:
+    """Return channels of equal length as such a file, also those that are no recording: their clock may step.
+
+    Args:
+        channels: name -> samples.
+        units: name -> unit, of every channel.
+        metadata: facts, as text.
+        marks: further entries of the schema's metadata.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    fields = [
+        pa.field(name, pa.from_numpy_dtype(samples.dtype), metadata={_UNIT: units[name]})
+        for name, samples in channels.items()
+    ]
+    schema_metadata = {
+        **(marks or {}),
+        _UNITS: json.dumps(dict(units), ensure_ascii=False),
+        _METADATA: json.dumps(dict(metadata), ensure_ascii=False),
+    }
+    table = pa.table(list(channels.values()), schema=pa.schema(fields, metadata=schema_metadata))
+    content = io.BytesIO()
+    # Samples hardly recur: to look for those that do takes half of writing, and files are a fifth larger.
+    pq.write_table(table, content, compression="zstd", use_dictionary=False)
+    return content.getvalue()
+
+
+def read_parquet(path: Path) -> Recording:
+    """Read a recording.
+
+    The unit of a channel is its field's `unit`; for a file from a tool that drops field
+    metadata, it is the one in the schema metadata. Missing samples of a channel become NaN.
+
+    Raises:
+        ValueError: the file is no Parquet file, or its channels are no recording.
+        OSError: the file cannot be read.
+
+    """
+    import pyarrow.parquet as pq
+
+    try:
+        # ParquetFile, not read_table: the latter takes a "friction=0.10" in a path for a partition key.
+        with path.open("rb") as file, pq.ParquetFile(file) as parquet:
+            return _recording(parquet.read(use_threads=False))
+    except ValueError as error:
+        raise ValueError(f"{path}: not a recording: {error}") from error
+
+
+def _recording(table: pa.Table) -> Recording:
+    schema_metadata = table.schema.metadata or {}
+    channels = {name: table.column(name).to_numpy() for name in table.column_names}
+    # What another program wrote as true and false are numbers, too.
+    channels |= {name: samples.astype("f8") for name, samples in channels.items() if samples.dtype == bool}
+    units = _texts(schema_metadata.get(_UNITS, b"{}")) | _field_units(table.schema)
+    metadata = _texts(schema_metadata.get(_METADATA, b"{}"))
+    return Recording(channels, {name: units.get(name, "") for name in channels}, metadata)
+
+
+def _texts(content: bytes) -> dict[str, str]:
+    texts: Any = json.loads(content)
+    if not isinstance(texts, dict):
+        raise ValueError(f"expected a JSON object in the schema metadata, found {texts!r}")
+    return {str(key): str(value) for key, value in texts.items()}
 
 
 def read(path: Path) -> Contents:
@@ -34,16 +115,13 @@ def read(path: Path) -> Contents:
             table = parquet.read(columns=read, use_threads=False)
     except (pa.ArrowException, OSError) as error:
         raise UnreadableError("no Parquet file, or a damaged one") from error
-    facts = {key.decode("utf-8", "replace"): value for key, value in (schema.metadata or {}).items()}
     skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in read}
     channels = {n: samples_of_column(table.column(column)) for n, column in columns.items() if column in read}
     stated = {name: unit for name, unit in units.items() if name in channels}
-    return Contents((Group("", channels, stated),), _object(facts.get("uictest.metadata")), skipped)
+    return Contents((Group("", channels, stated),), _object((schema.metadata or {}).get(_METADATA)), skipped)
 
 
-def encoded(recording: Recording) -> bytes:
-    """Return a recording as a file."""
-    return parquet_bytes(recording)
+encoded = parquet_bytes
 
 
 def columns_of(schema: pa.Schema) -> tuple[dict[str, str], dict[str, str]]:
@@ -56,7 +134,8 @@ def columns_of(schema: pa.Schema) -> tuple[dict[str, str], dict[str, str]]:
     for name, count in Counter(schema.names).items():
         if count > 1:
             raise UnreadableError(f"{count} columns have the name {name!r}")
-    units = _stated_units(schema)
+    times = {field.name: "s" for field in schema if holds_times(field.type)}
+    units = {**_object((schema.metadata or {}).get(_UNITS)), **_field_units(schema), **times}
     split = dict(zip(schema.names, names_and_units_of(schema.names), strict=True))
     alike = Counter(name for name, _ in split.values())
     columns: dict[str, str] = {}
@@ -124,14 +203,8 @@ def seconds_of_moments(column: Any) -> Samples:
     return np.asarray((stamps - np.datetime64(0, "us")) / np.timedelta64(1, "us") * 1e-6, dtype=np.float64)
 
 
-def _stated_units(schema: pa.Schema) -> dict[str, str]:
-    of_schema = _object((schema.metadata or {}).get(b"uictest.units"))
-    times = {field.name: "s" for field in schema if holds_times(field.type)}
-    return {**of_schema, **_field_units(schema), **times}
-
-
 def _field_units(schema: pa.Schema) -> dict[str, str]:
-    marked = ((field.name, (field.metadata or {}).get(b"unit", b"")) for field in schema)
+    marked = ((field.name, (field.metadata or {}).get(_UNIT, b"")) for field in schema)
     return {name: unit.decode("utf-8", "replace") for name, unit in marked if unit}
 
 

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from uictest.core.recording.formats import csv_text, isolation, parquet, streams
-from uictest.core.recording.formats.cells import MOST_PLACED
-from uictest.core.recording.formats.file_formats import UnreadableError, format_of
+import numpy as np
+
+from uictest.core.recording.formats import csv_text, isolation, parquet
+from uictest.core.recording.formats.cells import MOST_LOCATED
+from uictest.core.recording.formats.file_formats import UnreadableError, format_of, module_of
 from uictest.core.recording.formats.layout import COMMENT, Dialect, cells_of, encoding_advice
 from uictest.core.recording.recording import Contents, Group
 
@@ -17,6 +23,8 @@ _BLOCK = 2 * 2**20
 """Bytes of text that are parsed at once, of which Arrow reads up to 32 blocks ahead; chosen."""
 _ROWS = 2**17
 """Rows of a Parquet file that are decoded at once; chosen."""
+_OVERLAP = 3
+"""Samples before and after a piece that the groups beside the leading one have, to interpolate; chosen."""
 _LONGEST = 200
 """Characters of a message of Arrow that are shown; chosen."""
 _SAMPLED = 200
@@ -45,7 +53,7 @@ def read_pieces(
     kind = format_of(path)
     if kind in ("mdf", "tdms"):
         asked = None if wanted is None else sorted(wanted)
-        request = {"wanted": asked, "leading": list(leading), "at_once": streams.AT_ONCE[kind]}
+        request = {"wanted": asked, "leading": list(leading), "at_once": module_of(kind).AT_ONCE}
         yield from isolation.read_apart(kind, path, request)
     elif kind in ("csv", "parquet"):
         opened = partial(_csv, texts=texts) if kind == "csv" else _parquet
@@ -80,11 +88,11 @@ def _tables(
 
     try:
         table, first_row = opened(path, dialect, wanted), 0
-        places: dict[str, dict[str, str]] = {name: {} for name in table.names}
+        locations: dict[str, dict[str, str]] = {name: {} for name in table.names}
         for batch in table.batches:
             group = Group("", {}, dict(table.units), first_row=first_row)
             for k, name in enumerate(table.names):
-                _add(group, name, batch.column(k), table.source, places[name])
+                _add(group, name, batch.column(k), table.source, locations[name])
             yield Contents((group,))
             first_row += batch.num_rows
     except UnicodeEncodeError as error:
@@ -95,21 +103,23 @@ def _tables(
     except (pa.ArrowException, OSError) as error:
         if isinstance(error, OSError) and error.errno:
             raise
-        told = "".join(each if each.isprintable() else "?" for each in str(error).splitlines()[0])
-        raise UnreadableError(f"damaged, or not a table of numbers throughout: {told[:_LONGEST]}") from error
+        reason = "".join(c if c.isprintable() else "?" for c in str(error).splitlines()[0])
+        raise UnreadableError(
+            f"damaged, or not a table of numbers throughout: {reason[:_LONGEST]}"
+        ) from error
 
 
 def _add(
-    group: Group, name: str, column: Any, source: csv_text.TextTable | None, places: dict[str, str]
+    group: Group, name: str, column: Any, source: csv_text.TextTable | None, locations: dict[str, str]
 ) -> None:
-    """Add the samples of a column to a group; time stamps are Unix time, s. `places` are of earlier texts."""
+    """Add the samples of a column to a group; dates are Unix time, s. `locations` are of earlier texts."""
     if source is not None and parquet.holds_texts(column.type):
         read = source.cells.column(column)
         # To look for those of a column of texts alone would take as long as to read it.
         for text in read.first_rows() if read.is_mixed else ():
-            if text not in places and len(places) < MOST_PLACED:
-                places[text] = source.line_of(name, text)
-        csv_text.add_texts(group, name, read, dict(places))
+            if text not in locations and len(locations) < MOST_LOCATED:
+                locations[text] = source.location_of(name, text)
+        csv_text.add_texts(group, name, read, dict(locations))
     elif parquet.is_moment(column.type):
         group.channels[name] = parquet.seconds_of_moments(column)
     else:
@@ -145,10 +155,7 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Co
     all_texts = bool(dialect.thousands)  # which Arrow does not read
     texts = {name for name in chosen if all_texts or name in texts or _is_text(table, name, rows)}
     read = csv.ReadOptions(
-        skip_rows=table.layout.first_line - 1,
-        column_names=names,
-        block_size=_BLOCK,
-        encoding=table.encoding,
+        skip_rows=table.layout.first_line - 1, column_names=names, block_size=_BLOCK, encoding=table.encoding
     )
     parse = csv.ParseOptions(
         delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, table.encoding)
@@ -187,3 +194,97 @@ def _on_other_lines(path: Path, encoding: str) -> Callable[[Any], str]:
         file.seek(max(path.stat().st_size - csv_text.LONGEST_LINE, 0))
         last = file.read().decode(encoding, "replace").rpartition("\n")[2]
     return lambda row: "skip" if row.text.startswith(COMMENT) or row.text == last else "error"
+
+
+def is_wanted(channel: str, group: str, wanted: Collection[str] | None) -> bool:
+    """Return whether a channel is wanted, by its name or by group and name; None: all are."""
+    return wanted is None or channel in wanted or f"{group}/{channel}" in wanted
+
+
+def in_step(streams: Sequence[Iterator[Group]], leading: Collection[str]) -> Iterator[Contents]:
+    """Yield the blocks of the group with a channel of `leading`, and what the other groups have meanwhile.
+
+    The others begin and end some samples before and after the block where they have them. A block that lasts
+    longer than one of theirs is divided: beside a slow group a fast one would be held for hours.
+
+    Raises UnreadableError where several groups have no times, or times that go back.
+    """
+    begun = [(first, stream) for stream in streams if (first := next(stream, None)) is not None]
+
+    def is_leading(block: Group) -> bool:
+        return any(is_wanted(name, block.name, leading) for name in block.channels)
+
+    begun.sort(key=lambda begin: not is_leading(begin[0]))
+    if not begun:
+        return
+    (first, stream), *others = begun
+    followers = [_Follower(*other) for other in others]
+    span = min((follower.lasts for follower in followers), default=math.inf)
+    for block in itertools.chain((first,), stream):
+        for part in _parts(block, span):
+            yield Contents((part, *(follower.beside(part) for follower in followers)))
+
+
+def _parts(block: Group, span: float) -> Iterator[Group]:
+    """Yield the rows of a block that lie within `span` (s) of each other."""
+    if math.isinf(span):
+        yield block
+        return
+    times = _rising(block)
+    begins = np.flatnonzero(np.diff((times - times[0]) // span)) + 1
+    for rows in itertools.pairwise((0, *begins.tolist(), len(times))):
+        part = _changed(block, itemgetter(slice(*rows)))
+        yield replace(part, first_row=block.first_row + rows[0])
+
+
+class _Follower:
+    """A group of which the part beside each block of the leading group is taken, one after the other."""
+
+    def __init__(self, first: Group, following: Iterator[Group]) -> None:
+        second = next(following, None)
+        self._held, self._following = first, itertools.chain(() if second is None else (second,), following)
+        times = _rising(first)
+        duration = float(times[-1] - times[0])
+        self.lasts = math.inf if second is None or not duration > 0.0 else duration
+        """How long a block is, s; infinite where there is only one."""
+
+    def beside(self, part: Group) -> Group:
+        """Return the samples beside a part of the leading group, and a few around; parts come in order."""
+        begin, end = _rising(part)[[0, -1]]
+        while _rising(self._held)[-1] <= end and (block := next(self._following, None)) is not None:
+            self._held = _joined(self._held, block)
+        times = _rising(self._held)
+        first = max(int(np.searchsorted(times, begin)) - _OVERLAP, 0)
+        last = int(np.searchsorted(times, end, side="right")) + _OVERLAP
+        self._held = _changed(self._held, lambda samples: samples[first:])
+        return _changed(self._held, lambda samples: samples[: last - first])
+
+
+def _changed(group: Group, change: Callable[[Any], Any]) -> Group:
+    channels = {name: change(samples) for name, samples in group.channels.items()}
+    return replace(group, channels=channels, time=change(group.time))
+
+
+def _joined(one: Group, other: Group) -> Group:
+    channels = {
+        name: np.concatenate((one.channels[name], other.channels[name]))
+        for name in one.channels
+        if name in other.channels
+    }
+    time = np.concatenate((_rising(one), _rising(other)))
+    return replace(one, channels=channels, time=time)
+
+
+def _rising(group: Group) -> Any:
+    """Return the times of a group beside others. Raises UnreadableError where they do not rise."""
+    if group.time is None:
+        raise UnreadableError(
+            f"group {group.name!r} has no times of its own beside other groups: such a file is not read in"
+            " pieces; write all channels over one time"
+        )
+    if not bool(np.all(np.diff(group.time) >= 0.0)):
+        raise UnreadableError(
+            f"the times of group {group.name!r} go back, so that other groups cannot be laid beside it; write"
+            " all channels over one time"
+        )
+    return group.time

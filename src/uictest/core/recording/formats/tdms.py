@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from uictest.core import files
 from uictest.core.recording.formats.file_formats import check_size, required_module
+from uictest.core.recording.formats.pieces import in_step, is_wanted
 from uictest.core.recording.plausibility import states_of
 from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 
-EXTRA = "tdms"
+_EXTRA = "tdms"
+AT_ONCE = 2**17
+"""Rows of a group that are read at once; chosen."""
 _GROUP = "stop"
 _NO_DATE = np.datetime64("1971-01-01", "us")
 """Up to it a start is none: LabVIEW writes 1904-01-01 for an unknown one."""
@@ -26,15 +30,38 @@ def read(path: Path) -> Contents:
 
     Raises MissingExtraError without npTDMS; for a damaged file whatever npTDMS raises.
     """
-    nptdms = required_module("nptdms", EXTRA)
+    nptdms = required_module("nptdms", _EXTRA)
     with nptdms.TdmsFile.open(path) as tdms:
-        channels = [channel for group in tdms.groups() for channel in group.channels()]
-        check_size((len(channel),) for channel in channels)
+        check_size((len(channel),) for group in tdms.groups() for channel in group.channels())
         skipped: dict[str, str] = {}
-        begun = begin_of(tdms)
-        groups = tuple(each for group in tdms.groups() for each in _groups(group, begun, skipped))
+        begun = _begin_of(tdms)
+        groups = tuple(
+            block
+            for group in tdms.groups()
+            for raster, channels in _rasters_of(group, begun).items()
+            for block in _blocks(group.name, raster, channels, max(raster[0], 1), skipped)
+        )
         facts = {str(key): str(value) for key, value in tdms.properties.items()}
         return Contents(groups, facts, skipped)
+
+
+def pieces(
+    path: Path, wanted: Collection[str] | None, leading: Collection[str], at_once: int
+) -> Iterator[Contents]:
+    """Yield the file as :func:`in_step`; see `read_pieces`. `at_once`: rows of a group."""
+    nptdms = required_module("nptdms", _EXTRA)
+    unix = np.datetime64(0, "us")
+    with files.temporary_folder() as folder, nptdms.TdmsFile.open(path) as tdms:
+        is_cut, begun = tdms.file_status.incomplete_final_segment, _begin_of(tdms)
+        streams = [
+            _blocks(
+                group.name, raster, [_short_chunks(c, folder, at_once) for c in chosen], at_once, {}, unix
+            )
+            for group in tdms.groups()
+            for raster, channels in _rasters_of(group, begun, is_cut=is_cut).items()
+            if (chosen := [c for c in channels if is_wanted(c.name, group.name, wanted)])
+        ]
+        yield from in_step(streams, leading)
 
 
 def encoded(recording: Recording) -> bytes:
@@ -42,11 +69,13 @@ def encoded(recording: Recording) -> bytes:
 
     Raises MissingExtraError without npTDMS.
     """
-    nptdms = required_module("nptdms", EXTRA)
+    nptdms = required_module("nptdms", _EXTRA)
     raster = _waveform(recording)
     objects = [nptdms.RootObject(properties=dict(recording.metadata)), nptdms.GroupObject(_GROUP)]
     for name, samples in recording.channels.items():
-        properties = {"unit_string": recording.units[name], **_names_of_states(name), **raster}
+        listed = ", ".join(f"{number} = {state}" for state, number in states_of(name).items())
+        states = {"states": listed} if listed else {}
+        properties = {"unit_string": recording.units[name], **states, **raster}
         objects.append(nptdms.ChannelObject(_GROUP, name, np.asarray(samples), properties=properties))
     content = io.BytesIO()
     with nptdms.TdmsWriter(content) as writer:
@@ -65,30 +94,41 @@ def _waveform(recording: Recording) -> dict[str, object]:
     return {"wf_start_offset": float(time[0]), "wf_increment": float(interval), "wf_samples": len(time)}
 
 
-def _names_of_states(name: str) -> dict[str, object]:
-    listed = ", ".join(f"{number} = {state}" for state, number in states_of(name).items())
-    return {"states": listed} if listed else {}
+def _blocks(
+    group: str,
+    raster: tuple[int, float, float],
+    channels: Sequence[Any],
+    at_once: int,
+    skipped: dict[str, str],
+    origin: np.datetime64 | None = None,
+) -> Iterator[Group]:
+    """Yield channels of one raster block by block; time stamps count from an origin, else from the first."""
+    length, interval, start = raster
+    for first in range(0, length, at_once):
+        last = min(first + at_once, length)
+        time = start + interval * np.arange(first, last) if interval > 0.0 else None
+        block = Group(group, {}, time=time, first_row=first)
+        for channel in channels:
+            samples = _numbers(channel[first:last], origin)
+            if samples is None:
+                skipped[f"{group}/{channel.name}"] = "holds no numbers"
+                continue
+            block.channels[channel.name] = samples
+            if unit := channel.properties.get("unit_string"):
+                block.units[channel.name] = str(unit)
+        if block.channels:
+            yield block
 
 
-def _groups(group: Any, begun: Any, skipped: dict[str, str]) -> Iterator[Group]:
-    for (length, interval, start), channels in rasters_of(group, begun).items():
-        read = {channel.name: numbers(channel[:]) for channel in channels}
-        kept = {name: samples for name, samples in read.items() if samples is not None}
-        skipped |= {f"{group.name}/{name}": "holds no numbers" for name in read if name not in kept}
-        units = {c.name: str(u) for c in channels if (u := c.properties.get("unit_string"))}
-        time = start + interval * np.arange(length) if interval > 0.0 else None
-        if kept and length:
-            yield Group(group.name, kept, {n: u for n, u in units.items() if n in kept}, time)
-
-
-def begin_of(tdms: Any) -> Any:
+def _begin_of(tdms: Any) -> Any:
     """Return when the first waveform of a file begins; None where not all of its channels say so."""
-    stamps = [each.properties.get("wf_start_time") for group in tdms.groups() for each in group.channels()]
-    known = [each for each in stamps if each is not None and np.datetime64(each) > _NO_DATE]
+    channels = [channel for group in tdms.groups() for channel in group.channels()]
+    stamps = [channel.properties.get("wf_start_time") for channel in channels]
+    known = [stamp for stamp in stamps if stamp is not None and np.datetime64(stamp) > _NO_DATE]
     return min(known) if known and len(known) == len(stamps) else None
 
 
-def rasters_of(
+def _rasters_of(
     group: Any, begun: Any = None, *, is_cut: bool = False
 ) -> dict[tuple[int, float, float], list[Any]]:
     """Return the channels of a group by length, interval and start, s; interval zero: not stated.
@@ -104,11 +144,11 @@ def rasters_of(
             start += float((channel.properties["wf_start_time"] - begun) / np.timedelta64(1, "us")) * 1e-6
         rasters.setdefault((0 if is_cut else len(channel), interval, start), []).append(channel)
     if is_cut:
-        return {(min(map(len, each)), *key[1:]): each for key, each in rasters.items()}
+        return {(min(map(len, channels)), *key[1:]): channels for key, channels in rasters.items()}
     return rasters
 
 
-def numbers(data: Any, origin: Any = None) -> Samples | None:
+def _numbers(data: Any, origin: np.datetime64 | None) -> Samples | None:
     """Return data of a channel as floats, stamps in s after `origin` or the first; None where it has none."""
     samples = np.asarray(data)
     if samples.dtype.kind == "M":
@@ -117,3 +157,26 @@ def numbers(data: Any, origin: Any = None) -> Samples | None:
     if samples.ndim != 1 or samples.dtype.kind not in "biuf":
         return None
     return samples.astype(np.float64)
+
+
+class _Stored:
+    """A channel of numbers copied to a file, whose rows are read from there."""
+
+    def __init__(self, channel: Any, path: Path) -> None:
+        self.name, self.properties, self.dtype = channel.name, channel.properties, channel.dtype
+        self._path = path
+        with path.open("wb") as file:
+            for chunk in channel.data_chunks():
+                np.asarray(chunk[:], dtype=self.dtype).tofile(file)
+
+    def __getitem__(self, rows: slice) -> Any:
+        count, offset = rows.stop - rows.start, rows.start * self.dtype.itemsize
+        return np.fromfile(self._path, self.dtype, count, offset=offset)
+
+
+def _short_chunks(channel: Any, folder: Path, rows: int) -> Any:
+    """Return a channel, or a copy where its chunks are long: npTDMS reads all of one for each of its rows."""
+    longest = len(next(channel.data_chunks(), ()))
+    if longest <= rows or channel.dtype.kind not in "biufM":
+        return channel
+    return _Stored(channel, folder / f"{len(list(folder.iterdir()))}.raw")

@@ -1,31 +1,43 @@
 """Criteria: bounds on the measures of a stop, when they apply, and the definitions of their words."""
 
-from collections.abc import Iterator, Mapping
-from typing import ClassVar, Literal
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from types import MappingProxyType
+from typing import ClassVar, Final, Literal
 
-from uictest.core.measures import MEASURES, Course, Measure
+from uictest.core.measures import MEASURES, Measure
 from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
+from uictest.plans.scenario.parts.applicability import Applicability
 from uictest.plans.scenario.parts.measures import (
     MEASURES_OF,
     WITH_DRY_VALUE,
+    AtLeast,
     Bound,
+    Definition,
     DryBound,
     MeasureName,
-    Scope,
-)
-from uictest.plans.scenario.parts.named_file import RequirementIds, repeated_requirements
-from uictest.plans.scenario.parts.reading import (
-    ID,
-    Applicability,
-    AtLeast,
-    Definition,
     Reading,
+    Scope,
     WheelsetsThatKeep,
     definition_problems,
     wheelsets_problems,
 )
-from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
-from uictest.plans.scenario.yaml.quantity_field import field, optional, schema_field
+from uictest.plans.scenario.parts.named_file import RequirementIds, repeated_requirements
+from uictest.plans.scenario.yaml import (
+    NAME_PATTERN,
+    SCENARIO_SOURCE,
+    Inconsistency,
+    Model,
+    Part,
+    field,
+    optional,
+    plain,
+    quoted,
+    read_library,
+    schema_field,
+    suggestion,
+    validated,
+)
 
 Stands = Literal["always", "in a valid test"]
 
@@ -33,7 +45,7 @@ Stands = Literal["always", "in a valid test"]
 class Criterion(Model):
     """One bound on one measure."""
 
-    id: str = field("Name of the criterion in every report.", pattern=ID)
+    id: str = field("Name of the criterion in every report.", pattern=NAME_PATTERN)
     title: str = field("One line for people.", default="", max_length=200)
     source: str = field("A key of the part's `sources`: where the bound is stated.", default=SCENARIO_SOURCE)
     clause: str = field("Clause of the source, or `unverified`.", default="unverified", max_length=200)
@@ -110,45 +122,12 @@ class Criterion(Model):
     @property
     def observed_by(self) -> tuple[str, ...]:
         """The fields of the scenario's `measures` part that decide what was observed."""
-        return () if self.scope == "series" else self._declared.observed_by
+        return () if self.scope == "series" else self.stop_measure.observed_by
 
     @property
     def corrected(self) -> tuple[str, ...]:
         """The conditions of a stop that the measure is corrected for."""
-        return () if self.scope == "series" else self._declared.corrected
-
-    @property
-    def course(self) -> Course:
-        """What the measure's value can do while the stop goes on."""
-        return self._declared.course
-
-    def speed_range(self, definition: Mapping[str, float]) -> str:
-        """Return in words at which train speeds the criterion looks; empty: at all of them.
-
-        `definition` holds the SI value of each of its definitions.
-        """
-        said = self._declared.speed_range
-        return said(definition) if said else ""
-
-    @property
-    def of_faults(self) -> bool:
-        """Whether the measure describes the reaction to faults."""
-        return self._declared.of_faults
-
-    @property
-    def of_braking(self) -> bool:
-        """Whether the measure describes how the train slows down."""
-        return self._declared.of_braking
-
-    @property
-    def of_standstill(self) -> bool:
-        """Whether the measure describes a stop to standstill."""
-        return self._declared.of_standstill
-
-    @property
-    def of_simulation(self) -> bool:
-        """Whether the measure describes the simulation itself, not a train."""
-        return self._declared.of_simulation
+        return () if self.scope == "series" else self.stop_measure.corrected
 
     @property
     def aggregation(self) -> str:
@@ -172,7 +151,9 @@ class Criterion(Model):
         yield from self._bound_problems()
         yield from self._dry_bound_problems()
         if self.scope == "series":
-            yield from self._series_problems()
+            for name in sorted({"wheelsets", "definition", "readings"} & self.model_fields_set):
+                message = f"{quoted(name)} belongs to a criterion of stops, this one has `scope: series`"
+                yield Inconsistency((name,), message, "leave it out")
         else:
             yield from wheelsets_problems(self.measure, self.wheelsets)
             yield from definition_problems(self.measure, self.definition)
@@ -182,8 +163,16 @@ class Criterion(Model):
     def _measure(self) -> Measure | SeriesMeasure:
         return MEASURES_OF[self.scope][self.measure]
 
+    def speed_range(self, definition: Mapping[str, float]) -> str:
+        """Return in words at which train speeds the criterion looks; empty: at all of them.
+
+        `definition` holds the SI value of each of its definitions.
+        """
+        said = self.stop_measure.speed_range
+        return said(definition) if said else ""
+
     @property
-    def _declared(self) -> Measure:
+    def stop_measure(self) -> Measure:
         """The measure of a criterion of stops."""
         return MEASURES[self.measure]
 
@@ -221,13 +210,6 @@ class Criterion(Model):
             message = f"{quoted(self.measure)} has no value of the dry stop to refer to"
             yield Inconsistency((shares[0],), message, hint)
 
-    def _series_problems(self) -> Iterator[Inconsistency]:
-        """Yield what says something of a stop in a criterion of a series."""
-        for name in ("wheelsets", "definition", "readings"):
-            if name in self.model_fields_set:
-                message = f"{quoted(name)} belongs to a criterion of stops, this one has `scope: series`"
-                yield Inconsistency((name,), message, "leave it out")
-
     def _reading_problems(self) -> Iterator[Inconsistency]:
         """Yield a missing name of the criterion's own reading, repeated names, other kinds of quantity."""
         if self.readings and not self.reading:
@@ -242,10 +224,11 @@ class Criterion(Model):
             if reading.id in seen:
                 message = f"a second reading is called {quoted(reading.id)}"
                 yield Inconsistency(("readings", index, "id"), message)
-            if MEASURES[reading.measure].kind != self._declared.kind:
+            kind, own_kind = MEASURES[reading.measure].kind, self.stop_measure.kind
+            if kind != own_kind:
                 message = (
-                    f"{quoted(reading.measure)} is a {MEASURES[reading.measure].kind}, but"
-                    f" {quoted(self.measure)} a {self._declared.kind}: the same bounds cannot hold for both"
+                    f"{quoted(reading.measure)} is a {kind}, but {quoted(self.measure)} a {own_kind}:"
+                    " the same bounds cannot hold for both"
                 )
                 yield Inconsistency(("readings", index, "measure"), message)
             seen.add(reading.id)
@@ -290,3 +273,35 @@ class Criteria(Part):
                         f"unknown source {quoted(source)}",
                         suggestion(source, self.sources) or "describe it under 'sources'",
                     )
+
+
+def criteria_of_the_same_name(
+    profiles: Iterable[Criteria], taken: Mapping[str, str] = MappingProxyType({})
+) -> Iterator[Inconsistency]:
+    """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished.
+
+    `taken` has the profiles of further criteria by the ids of these.
+    """
+    profile_of = dict(taken)
+    for number, profile in enumerate(profiles):
+        for index, criterion in enumerate(profile.criteria):
+            if criterion.id in profile_of:
+                yield Inconsistency(
+                    ("criteria", number, "criteria", index, "id"),
+                    f"criterion {quoted(criterion.id)} of profile {quoted(profile.name)} is in profile"
+                    f" {quoted(profile_of[criterion.id])} as well",
+                    "leave one profile out, or give the criterion another id",
+                )
+        profile_of |= {criterion.id: profile.name for criterion in profile.criteria}
+
+
+RIG_CHECKS: Final = "uictest-rig"
+"""Name of the profile that checks the rig in every simulated stop."""
+
+
+@cache
+def rig_checks() -> Criteria:
+    """Return the profile of the library that checks the rig."""
+    tree = read_library(Criteria.folder, RIG_CHECKS)
+    profile: Criteria = validated(Criteria, plain(tree), tree)
+    return profile.with_origin(RIG_CHECKS, profile)

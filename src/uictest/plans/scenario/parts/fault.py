@@ -1,33 +1,38 @@
-"""A fault: what of the brake or its controller fails, how, and when."""
+"""A fault: what of the brake or its controller fails, how, when, and whether it fits its scenario."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Annotated, Any, Final
 
-from pydantic import (
-    AfterValidator,
-    Field,
-    PlainSerializer,
-    PlainValidator,
-    ValidationInfo,
-    WithJsonSchema,
-)
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, Field, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
 
 from uictest.core.units import KINDS
-from uictest.plans.fault_effects import Effects, FaultKind
-from uictest.plans.faults import FAULT_KINDS, PARTS
+from uictest.plans.faults import (
+    DYNAMIC_BRAKE,
+    FAULT_KINDS,
+    PARTS,
+    SANDER,
+    TRACK_BRAKE,
+    TRAIN_SPEED,
+    Effects,
+    FaultKind,
+)
+from uictest.plans.scenario.parts.vehicle import wheelset_value
 from uictest.plans.scenario.yaml import (
     QUANTITY_KEYWORD,
     Inconsistency,
     Model,
     Quantity,
     QuantityError,
+    field,
+    of_kind,
+    optional,
     parse_quantity,
     quoted,
+    refused,
     suggestion,
     written,
 )
-from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional
 
 _FIELDS: Final = (
     of_kind("time", "0 s .. 3600 s"),
@@ -40,43 +45,25 @@ TIME, SPEED, DISTANCE = (each.kind.canonical for each in _FIELDS)
 
 
 def _read(value: object) -> Quantity:
-    if isinstance(value, Quantity):
-        text, unit = value.text, value.unit
-    else:
-        text = getattr(value, "text", value if isinstance(value, str) else str(value))
-        unit = _unit_of(text)
+    text = getattr(value, "text", str(value))
     for each in _FIELDS:
-        if each.kind.canonical == unit:
-            return each.validate(value)
-    context = {"message": f"{quoted(text)} is no instant of a stop", "hint": _HINT}
-    raise PydanticCustomError("moment", "{message}", context)
-
-
-def _unit_of(text: str) -> str:
-    for each in _FIELDS:
-        try:
+        with suppress(QuantityError):
             parse_quantity(text, each.kind.name)
-        except QuantityError:
-            continue
-        return each.kind.canonical
-    return ""
+            return each.validate(value)
+    raise refused(f"{quoted(text)} is no instant of a stop", _HINT)
 
 
 _SCHEMA: Final[dict[str, Any]] = {
     "anyOf": [{QUANTITY_KEYWORD: name} for name in KINDS if name in ("time", "speed", "length")]
 }
-
 Moment = Annotated[Quantity, PlainValidator(_read), PlainSerializer(written), WithJsonSchema(_SCHEMA)]
 """A quantity whose unit says what it is."""
-
-
 _NAMES: Final = tuple(dict.fromkeys(name for _, name in FAULT_KINDS))
 
 
 def _known_part(name: str) -> str:
     if name not in PARTS:
-        context = {"message": f"unknown part {quoted(name)}", "hint": suggestion(name, PARTS)}
-        raise PydanticCustomError("fault_part", "{message}", context)
+        raise refused(f"unknown part {quoted(name)}", suggestion(name, PARTS))
     return name
 
 
@@ -87,11 +74,7 @@ def _kinds_of(part: str) -> list[str]:
 def _known_kind(name: str, info: ValidationInfo) -> str:
     part = info.data.get("part")
     if part is not None and (part, name) not in FAULT_KINDS:
-        context = {
-            "message": f"{quoted(part)} has no fault {quoted(name)}",
-            "hint": suggestion(name, _kinds_of(part)),
-        }
-        raise PydanticCustomError("fault_kind", "{message}", context)
+        raise refused(f"{quoted(part)} has no fault {quoted(name)}", suggestion(name, _kinds_of(part)))
     return name
 
 
@@ -101,11 +84,8 @@ def _of_the_kind(value: object, info: ValidationInfo) -> object:
     if declared is None or value is None:
         return None
     if declared.value is None:
-        context = {
-            "message": f"{quoted(declared.name)} of {quoted(declared.part)} takes no value",
-            "hint": "leave `value` out",
-        }
-        raise PydanticCustomError("fault_value", "{message}", context)
+        message = f"{quoted(declared.name)} of {quoted(declared.part)} takes no value"
+        raise refused(message, "leave `value` out")
     takes = declared.value
     return of_kind(takes.kind, f"{takes.at_least} .. {takes.at_most}").validate(value)
 
@@ -198,3 +178,62 @@ class Fault(Model):
                 f"the fault would end at {self.until.text}, before it begins at {self.at.text}",
                 f"`until` must be {needed} `at`",
             )
+
+
+_OPTIONAL: Final = {
+    DYNAMIC_BRAKE: ("dynamic", "{force: 60 kN, power: 1.6 MW}"),
+    TRACK_BRAKE: ("track", "{attraction: 100 kN, magnets: 4, off_below: 50 km/h}"),
+}
+"""Parts that a car need not have: their key below `brake` and an example."""
+
+
+def impossible_faults(scenario: Any) -> Iterator[Inconsistency]:
+    """Yield faults that do not fit the stop of a scenario."""
+    for index, fault in enumerate(scenario.faults):
+        if fault.at.unit == SPEED and fault.at > scenario.initial_speed:
+            yield Inconsistency(
+                ("faults", index, "at"),
+                f"the train never runs at {fault.at.text}: it begins to brake at"
+                f" {scenario.initial_speed.text}",
+                "write a lower speed, or `at: 0 s` for a fault throughout the stop",
+            )
+        if fault.part in _OPTIONAL and getattr(scenario.brake, _OPTIONAL[fault.part][0]) is None:
+            key, example = _OPTIONAL[fault.part]
+            yield Inconsistency(
+                ("faults", index, "part"),
+                f"this car has no {fault.part.replace('-', ' ')}",
+                f"give it one: brake.{key}: {example}",
+            )
+        if fault.part == SANDER and all(fault.wheelset != sander.wheelset for sander in scenario.sanders):
+            yield Inconsistency(
+                ("faults", index, "wheelset"),
+                f"wheelset {fault.wheelset} has no sander",
+                f"give it one: sanders: [{{wheelset: {fault.wheelset}, density: 7.5 g/m}}]",
+            )
+        if fault.part == TRAIN_SPEED and scenario.rig.sensors.train_speed is None:
+            yield Inconsistency(
+                ("faults", index, "part"),
+                "this rig has no second source of speed",
+                "give it one: rig.sensors.train_speed: {period: 100 ms, delay: 100 ms}",
+            )
+        if fault.wheelset is not None and fault.effects.lost_teeth > 0.0:
+            yield from _without_teeth(scenario, index, fault)
+
+
+def _without_teeth(scenario: Any, location: int, fault: Any) -> Iterator[Inconsistency]:
+    """Yield a pole wheel that loses teeth though none are counted, or more teeth than it has."""
+    method, teeth, missing = (
+        wheelset_value(scenario, fault.wheelset, f"sensors.speed.{name}")
+        for name in ("method", "teeth", "missing_teeth")
+    )
+    if method != "whole-teeth":
+        yield Inconsistency(
+            ("faults", location, "kind"),
+            f"the speed sensor of wheelset {fault.wheelset} counts no teeth",
+            "write `rig.sensors.speed.method: whole-teeth`",
+        )
+    elif missing + fault.effects.lost_teeth >= teeth:
+        yield Inconsistency(
+            ("faults", location, "value"),
+            f"{fault.value.text} and {missing.text} of {teeth.text} teeth: at least one must be left",
+        )

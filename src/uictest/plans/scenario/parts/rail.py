@@ -1,15 +1,34 @@
-"""The rail: the adhesion law (Polach 2005), friction along the track and over time."""
+"""The rail: adhesion law (Polach 2005), friction along the track and over time, cleaning, and sand.
+
+No publication gives the numbers of sand. Law, share that is kept and largest rate are those of the study
+`sand`, which fits the law to two stops of RSSB T1107 and selects the other two numbers; all else is chosen.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
-from pydantic import create_model
+from pydantic import Discriminator, Field, Tag, create_model
 
+from uictest.core.physics import MOST_SAND_POINTS
 from uictest.core.rail_laws import DEFAULT, LAWS, RailLaw
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, quoted
-from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
+from uictest.plans.scenario.yaml import (
+    DEFAULT_SOURCE,
+    Inconsistency,
+    Model,
+    Part,
+    PartReference,
+    Quantity,
+    Section,
+    default,
+    field,
+    of_kind,
+    optional,
+    quantity,
+    quoted,
+    schema_field,
+)
 
 Friction = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
 Share = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
@@ -128,24 +147,29 @@ class _Cleaning(Section):
 
 
 def _section_of(law: RailLaw) -> type[Section]:
-    """Return the model of a law's own numbers."""
     fields: dict[str, Any] = {
         name: (Quantity, quantity(number.description, number.kind, f"{number.at_least} .. {number.at_most}"))
         for name, number in law.numbers.items()
     }
-    section: type[Section] = create_model(
+    return create_model(
         f"{law.name.capitalize()}Law",
         __base__=Section,
         __doc__=law.description,
         __module__=__name__,
         **fields,
     )
-    return section
 
 
 _LAW_SECTIONS: Final = {name: _section_of(law) for name, law in LAWS.items() if name != DEFAULT}
-# Pickle finds a class by its name in its module; sweeps send scenarios to other processes.
-globals().update({section.__name__: section for section in _LAW_SECTIONS.values()})
+
+
+def __getattr__(name: str) -> type[Section]:
+    """Return the section of a law by its name, where pickle looks for it: sweeps send scenarios around."""
+    for section in _LAW_SECTIONS.values():
+        if section.__name__ == name:
+            return section
+    raise AttributeError(name)
+
 
 if TYPE_CHECKING:
     Cleaning = _Cleaning
@@ -162,15 +186,14 @@ else:
     )
 
 
-_DEVIATIONS: Final = 6.0
-"""Standard deviations of the logarithm of friction beyond which no rail is expected to be; chosen."""
-
-
 class Variation(Section):
     """How friction varies at random along the track: log-normal, with a correlation of exp(-distance / l).
 
     The seed of a stop and the place on the track decide it, and nothing else.
     """
+
+    deviations: ClassVar[float] = 6.0
+    """Standard deviations of the logarithm of friction beyond which no rail is expected to be; chosen."""
 
     spread: Quantity = quantity(
         "Standard deviation of the friction of one rail as a share of its mean.", "share", "0 % .. 100 %"
@@ -191,7 +214,7 @@ class Variation(Section):
     @property
     def highest_factor(self) -> float:
         """The highest factor on friction that is expected anywhere."""
-        return math.exp(_DEVIATIONS * self.log_spread)
+        return math.exp(self.deviations * self.log_spread)
 
 
 class RailCondition(Part):
@@ -283,3 +306,182 @@ def out_of_order(values: Sequence[Quantity], name: str) -> Iterator[Inconsistenc
                 f"{after.text} does not come after {before.text}",
                 f"{name} must increase from point to point",
             )
+
+
+class SandPoint(Model):
+    """What one density of sand does."""
+
+    density: Quantity = quantity("Sand on one rail.", "line density", "0 g/m .. 1000 g/m")
+    share: Quantity = quantity("Share of the way to the friction with enough sand.", "number", "0 .. 1")
+
+
+def _ranged(text: str, low: str, high: str) -> Quantity:
+    value, lowest, highest = (default(each, "number") for each in (text, low, high))
+    return Quantity(float(value), value.text, value.unit, DEFAULT_SOURCE, (lowest, highest))
+
+
+_TABLE: Final = (
+    *((0, 0), (1, 0.112), (2, 0.211), (3, 0.299), (4, 0.378), (6, 0.509), (8, 0.613), (12, 0.759)),
+    *((16, 0.850), (24, 0.942), (40, 0.991), (60, 1)),
+)
+"""1 - exp(-d / 8.43 g/m), fitted by the study `sand`: slope 0.0332 m/g from 0.02 to 0.30."""
+
+
+class Sand(Model):
+    """What sand does on the rail, and how much of it a wheelset leaves."""
+
+    friction: Annotated[Quantity, of_kind("number", "0.001 .. 1")] = field(
+        "Initial friction coefficient of a rail with enough sand; a better rail keeps its own.",
+        default=_ranged("0.30", "0.24", "0.36"),
+    )
+    kept: Annotated[Quantity, of_kind("number", "0 .. 1")] = field(
+        "Share of the sand before a wheelset that it leaves behind.", default=_ranged("0.8", "0.6", "0.95")
+    )
+    points: tuple[SandPoint, ...] = field(
+        "What densities do, in their order, with straight lines between; the ends go on unchanged.",
+        default=tuple(
+            SandPoint(density=default(f"{density} g/m", "line density"), share=default(f"{share}", "number"))
+            for density, share in _TABLE
+        ),
+        min_length=2,
+        max_length=MOST_SAND_POINTS,
+    )
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield densities out of order, and an effect without sand."""
+        if self.points[0].density > 0.0 or self.points[0].share > 0.0:
+            yield Inconsistency(
+                ("points", 0), "the table does not begin without sand", "write {density: 0 g/m, share: 0}"
+            )
+        yield from out_of_order([point.density for point in self.points], "density")
+
+
+class Sander(Model):
+    """A sander with its nozzle ahead of a wheelset; its rates are those of one rail."""
+
+    share_of_wheelbase: ClassVar[float] = 0.8
+    """How far ahead of its wheelset a nozzle may stand: safely behind the wheelset before; chosen."""
+    usual_rate: ClassVar[Quantity] = default("6 kg/min", "sand rate")
+    """Largest rate of a variable sander that states none; chosen, with a range of 4 to 8 kg/min."""
+
+    wheelset: Annotated[int, Field(ge=1, le=4, strict=True)] = field(
+        "Wheelset ahead of which its nozzle stands, 1 to 4 from the leading end."
+    )
+    density: Annotated[Quantity, of_kind("line density", "> 0 g/m .. 100 g/m")] | None = optional(
+        "Density at which a variable sander aims; a sander without one lays its rate at every speed."
+    )
+    rate: Annotated[Quantity, of_kind("sand rate", "> 0 kg/min .. 60 kg/min")] | None = optional(
+        "Rate, of a variable sander its largest one: 6 kg/min if left out."
+    )
+    when: Literal["always", "sliding", "requested"] = field(
+        "What demands sand: the brake command, the WSP that acts, or a controller of contract version 2.",
+        default="sliding",
+    )
+    distance: Quantity = quantity(
+        "Distance of the nozzle ahead of its wheelset.", "length", "0.1 m .. 1.5 m", default="0.3 m"
+    )
+    delay: Quantity = quantity(
+        "Time from the demand to sand on the rail, and from its end to the last of it.",
+        "time",
+        "0 s .. 10 s",
+        default="0.5 s",
+    )
+    off_below: Quantity = quantity(
+        "Train speed below which no sand is demanded.", "speed", "0 km/h .. 100 km/h", default="10 km/h"
+    )
+    sliding_time: Quantity = quantity(
+        "Time for which the WSP must hold or vent wheelsets of the car without a break before they count as"
+        " sliding.",
+        "time",
+        "0 s .. 10 s",
+        default="0.2 s",
+    )
+    run_on: Quantity = quantity(
+        "Time without a hold or vent after which they no longer do.", "time", "0 s .. 60 s", default="3 s"
+    )
+
+    @property
+    def largest_rate(self) -> float:
+        """The largest rate, kg/s."""
+        return float(self.usual_rate if self.rate is None else self.rate)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a sander that does not say what it lays."""
+        if self.density is None and self.rate is None:
+            yield Inconsistency((), "the sander lays nothing", "add `density: 7.5 g/m` or `rate: 2 kg/min`")
+
+
+def _friction_form(value: object) -> str:
+    points = isinstance(value, tuple) and any(isinstance(point, dict) for point in value)
+    marked = isinstance(value, dict) and "value" in value
+    is_profile = isinstance(value, dict | FrictionProfile) and not marked
+    return "profile" if points or is_profile else "number"
+
+
+FrictionAlongTrack = Annotated[
+    Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
+    Discriminator(_friction_form),
+]
+
+
+class Rail(Model):
+    """The rail under the car."""
+
+    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = field(
+        "Rail condition: dry, wet, a relative path or an inline mapping."
+    )
+    friction: FrictionAlongTrack | None = optional(
+        "Initial friction coefficient, or points along the track; the condition's if left out."
+    )
+    friction_over_time: FactorProfile | None = optional(
+        "Factor on the friction coefficient over time; 1 throughout if left out."
+    )
+    cleaning: Cleaning | None = optional("How sliding cleans the rail; as the condition says if left out.")
+    variation: Variation | None = optional(
+        "How friction varies at random along the track; as the condition says if left out."
+    )
+    sand: Sand = field("What sand does on the rail; nothing without sanders.", default=Sand())
+    gradient: Quantity = quantity(
+        "Gradient of the track, positive uphill.",
+        "gradient",
+        "-60 permille .. 60 permille",
+        default="0 permille",
+    )
+
+    @property
+    def _frictions(self) -> list[Quantity]:
+        if isinstance(self.friction, FrictionProfile):
+            return [at.friction for at in self.friction.points]
+        return [self.condition.friction if self.friction is None else self.friction]
+
+    @property
+    def highest_friction(self) -> float:
+        """The highest friction coefficient anywhere, at any time."""
+        over_time = () if self.friction_over_time is None else self.friction_over_time.points
+        return max((at.factor for at in over_time), default=1.0) * max(self._frictions)
+
+    @property
+    def friction_as_found(self) -> str:
+        """The friction coefficient before anything slides: `0.09`, `0.05 .. 0.15 along the track`."""
+        lowest, highest = min(self._frictions), max(self._frictions)
+        along_track = isinstance(self.friction, FrictionProfile)
+        text = f"{lowest:.3g} .. {highest:.3g} along the track" if along_track else f"{lowest:.3g}"
+        return text if self.variation_in_force is None else f"{text}, varying at random"
+
+    @property
+    def cleaning_in_force(self) -> Cleaning | None:
+        """How sliding cleans the rail, or None where it does not."""
+        return self.condition.cleaning if self.cleaning is None else self.cleaning
+
+    @property
+    def variation_in_force(self) -> Variation | None:
+        """How friction varies at random, or None where it does not."""
+        variation = self.condition.variation if self.variation is None else self.variation
+        return None if variation is None or variation.spread == 0.0 else variation
+
+    @property
+    def highest_friction_after_cleaning(self) -> float:
+        """The highest friction coefficient that a wheelset can meet."""
+        cleaning, variation = self.cleaning_in_force, self.variation_in_force
+        found = self.highest_friction * (1.0 if variation is None else variation.highest_factor)
+        return found if cleaning is None else max(found, cleaning.recovered_friction)

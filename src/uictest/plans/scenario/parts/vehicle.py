@@ -1,25 +1,231 @@
-"""The vehicle: one car on two bogies and four wheelsets, in the vertical plane along the track.
+"""The vehicle: a car on two bogies and four wheelsets, what a wheelset has of its own, couplers between cars.
 
 The ranges catch a wrong unit or digit; they do not judge a design. They are chosen: about ten times beyond
 the cars of the library, so that the lightest tram and half of the heaviest six-axle locomotive are accepted.
 """
 
 import math
-from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Iterator, Mapping
+from functools import cache
+from operator import attrgetter
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Final, Literal
 
-from pydantic import Discriminator, Tag
+from pydantic import AfterValidator, Discriminator, Field, Tag
 
-from uictest.plans.scenario.parts.wheelsets import ALIKE, Inertia, Radius, Wheelsets
-from uictest.plans.scenario.yaml import Inconsistency, Key, Part, Quantity, Section
-from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
+from uictest.plans.scenario.parts.equipment import (
+    Caliper,
+    Conductance,
+    CoulombFriction,
+    ErrorShare,
+    ForceNoise,
+    ForceOffset,
+    Loadcell,
+    LoadFriction,
+    LoadValve,
+    LowestSpeed,
+    MissingTeeth,
+    NoiseShare,
+    PadFriction,
+    PressureNoise,
+    PressureOffset,
+    PressureSensor,
+    SpeedMethod,
+    SpeedSensor,
+    Teeth,
+    TimerResolution,
+    ValveTime,
+    WspValve,
+)
+from uictest.plans.scenario.yaml import (
+    Inconsistency,
+    Key,
+    Model,
+    Part,
+    Quantity,
+    Section,
+    default,
+    field,
+    of_kind,
+    optional,
+    quantity,
+    quoted,
+    refused,
+    schema_field,
+)
+
+NUMBERS: Final = ("1", "2", "3", "4")
+"""Numbers of the wheelsets from the leading end, as keys."""
+Radius = Annotated[Quantity, of_kind("length", "> 0.1 m .. 1 m")]
+Inertia = Annotated[Quantity, of_kind("inertia", "1 kg m2 .. 1e4 kg m2")]
+
+
+def _known(number: str) -> str:
+    if number not in NUMBERS:
+        raise refused(f"no wheelset {quoted(number)}", f"accepted: {', '.join(NUMBERS)}")
+    return number
+
+
+WheelsetNumber = Annotated[str, AfterValidator(_known), Field(json_schema_extra={"enum": list(NUMBERS)})]
+"""Key of a wheelset."""
+
+
+def _own(regular: type[Model], name: str) -> Any:
+    """Return the field of a value that replaces the one of the same name in a regular section."""
+    return optional(regular.model_fields[name].description or "")
+
+
+class OwnCaliper(Section):
+    """A brake cylinder with its lever and pads."""
+
+    load_friction: LoadFriction | None = _own(Caliper, "load_friction")
+    coulomb_friction: CoulombFriction | None = _own(Caliper, "coulomb_friction")
+
+
+class OwnWspValve(Section):
+    """A WSP valve: fill, hold or vent one tank."""
+
+    fill_conductance: Conductance | None = _own(WspValve, "fill_conductance")
+    vent_conductance: Conductance | None = _own(WspValve, "vent_conductance")
+    switching_delay: ValveTime | None = _own(WspValve, "switching_delay")
+    travel_time: ValveTime | None = _own(WspValve, "travel_time")
+
+
+class OwnSpeedSensor(Section):
+    """A toothed wheel on the axle; speed from the time between teeth."""
+
+    teeth: Teeth | None = _own(SpeedSensor, "teeth")
+    timer_resolution: TimerResolution | None = _own(SpeedSensor, "timer_resolution")
+    minimum_speed: LowestSpeed | None = _own(SpeedSensor, "minimum_speed")
+    noise: NoiseShare | None = _own(SpeedSensor, "noise")
+    gain_error: ErrorShare | None = _own(SpeedSensor, "gain_error")
+    method: SpeedMethod | None = _own(SpeedSensor, "method")
+    eccentricity: NoiseShare | None = _own(SpeedSensor, "eccentricity")
+    missing_teeth: MissingTeeth | None = _own(SpeedSensor, "missing_teeth")
+
+
+class OwnPressureSensor(Section):
+    """A pressure sensor of a tank or of the reservoir."""
+
+    gain_error: ErrorShare | None = _own(PressureSensor, "gain_error")
+    offset: PressureOffset | None = _own(PressureSensor, "offset")
+    noise: PressureNoise | None = _own(PressureSensor, "noise")
+
+
+class OwnLoadcell(Section):
+    """One of the loadcells between pad and disc."""
+
+    gain_error: ErrorShare | None = _own(Loadcell, "gain_error")
+    offset: ForceOffset | None = _own(Loadcell, "offset")
+    noise: ForceNoise | None = _own(Loadcell, "noise")
+
+
+class OwnSensors(Section):
+    """The sensors of one wheelset and its module."""
+
+    speed: OwnSpeedSensor = field("Its speed sensor.", default=OwnSpeedSensor())
+    pressure: OwnPressureSensor = field("The pressure sensor of its tank.", default=OwnPressureSensor())
+    loadcell: OwnLoadcell = field("The loadcells of its caliper.", default=OwnLoadcell())
+
+
+class OwnValues(Section):
+    """What one wheelset has of its own; everything else is as on the others."""
+
+    wheel_radius: Radius | None = optional(
+        "Rolling radius of its wheels; vehicle.wheelset.radius if left out."
+    )
+    rotational_inertia: Inertia | None = optional(
+        "Moment of inertia about its axle, with that of a motor and its gear, seen from the axle;"
+        " vehicle.wheelset.rotational_inertia if left out."
+    )
+    configured_radius: Radius | None = optional(
+        "Radius that the WSP was configured with: measured speed is rotation times this;"
+        " vehicle.wheelset.radius if left out."
+    )
+    brake_force: Annotated[Quantity, of_kind("share", "0 % .. 300 %")] | None = optional(
+        "Its brake force as a share of the regular one; 100 % if left out."
+    )
+    pad_friction: PadFriction | None = optional("Friction coefficient between its pads and discs.")
+    caliper: OwnCaliper = field("Its caliper.", default=OwnCaliper())
+    wsp_valve: OwnWspValve = field("Its WSP valve.", default=OwnWspValve())
+    sensors: OwnSensors = field("Its sensors.", default=OwnSensors())
+
+
+def _completed(own: dict[str, OwnValues]) -> dict[str, OwnValues]:
+    return {number: own.get(number, OwnValues()) for number in NUMBERS}
+
+
+Wheelsets = Annotated[dict[WheelsetNumber, OwnValues], AfterValidator(_completed)]
+"""The own values of all four wheelsets, those that a file leaves out empty."""
+ALIKE: Final = MappingProxyType(_completed({}))
+"""Wheelsets without values of their own."""
+REGULAR: Final[Mapping[str, str]] = MappingProxyType(
+    {
+        **dict.fromkeys(("wheel_radius", "configured_radius"), "vehicle.wheelset.radius"),
+        "rotational_inertia": "vehicle.wheelset.rotational_inertia",
+        "pad_friction": "brake.system.disc.pad_friction",
+        **{
+            f"{own}.{name}": f"{regular}.{own}.{name}"
+            for regular, own, section in (
+                ("rig", "caliper", OwnCaliper),
+                ("brake.system", "wsp_valve", OwnWspValve),
+                ("rig", "sensors.speed", OwnSpeedSensor),
+                ("rig", "sensors.pressure", OwnPressureSensor),
+                ("rig", "sensors.loadcell", OwnLoadcell),
+            )
+            for name in section.model_fields
+        },
+    }
+)
+"""Own value -> key in the scenario of the regular value that it replaces; the regular brake force is 1."""
+WHEELSET_NUMBERS: Final = tuple(map(int, NUMBERS))
+"""Numbers of the wheelsets from the leading end."""
+_getter: Final = cache(attrgetter)
+_WHEELSETS: Final = attrgetter("vehicle.wheelsets")
+_WHOLE: Final = default("100 %", "share")
+
+
+def wheelset_value(scenario: Model, number: int, name: str) -> Any:
+    """Return a quantity or setting of wheelset ``number`` (1 to 4) by its name below ``vehicle.wheelsets.N``.
+
+    Names are those of :class:`~uictest.plans.scenario.parts.wheelsets.OwnValues`, e.g.
+    ``caliper.load_friction``.
+    """
+    own = _getter(name)(_WHEELSETS(scenario)[str(number)])
+    return _regular(scenario, name) if own is None else own
+
+
+def wheelset_keys(number: int, name: str) -> tuple[str, ...]:
+    """Return the keys of a scenario that decide a value of a wheelset."""
+    own = f"vehicle.wheelsets.{number}.{name}"
+    return (own, REGULAR[name]) if name in REGULAR else (own,)
+
+
+def deciding_key(scenario: Model, number: int, *names: str) -> Key:
+    """Return the key of the first value that the wheelset has of its own, else of the first, regular."""
+    for name in names:
+        if _getter(name)(_WHEELSETS(scenario)[str(number)]) is not None:
+            return tuple(wheelset_keys(number, name)[0].split("."))
+    return tuple(REGULAR[names[0]].split("."))
+
+
+def distinct_values(scenario: Model, name: str) -> Iterator[tuple[Key, Quantity]]:
+    """Yield the values that wheelsets have under a name of `REGULAR` and their keys, the regular one once."""
+    written: dict[Key, Quantity] = {}
+    for number in WHEELSET_NUMBERS:
+        value = wheelset_value(scenario, number, name)
+        own, regular = wheelset_keys(number, name)
+        written[tuple((regular if value is _regular(scenario, name) else own).split("."))] = value
+    yield from written.items()
+
+
+def _regular(scenario: Model, name: str) -> Any:
+    return _getter(REGULAR[name])(scenario) if name in REGULAR else _WHOLE
+
 
 Height = Annotated[Quantity, of_kind("length", "1 cm .. 5 m")]
 Stiffness = Annotated[Quantity, of_kind("stiffness", "1 kN/m .. 1000 MN/m")]
 Damping = Annotated[Quantity, of_kind("damping", "0 N s/m .. 1e7 N s/m")]
-
-LOWEST_FREQUENCY = 0.3
-"""Hz, chosen: half the lowest natural frequency of the library's cars (0.66 Hz, bounce of the CRH380A)."""
 
 
 class Body(Section):
@@ -94,15 +300,10 @@ class RunningResistance(Section):
     )
 
 
-def _load_form(value: object) -> str:
-    # Any word is to be one of the two; what begins with a digit is to be a mass.
-    return "word" if isinstance(value, str) and value[:1].isalpha() else "mass"
-
-
 Load = Annotated[
     Annotated[Literal["empty", "full"], Tag("word")]
     | Annotated[Quantity, of_kind("mass", "0 t .. 200 t"), Tag("mass")],
-    Discriminator(_load_form),
+    Discriminator(lambda value: "word" if isinstance(value, str) and value[:1].isalpha() else "mass"),
 ]
 """A word, or a mass."""
 
@@ -111,6 +312,8 @@ class Vehicle(Part):
     """A car of two bogies and four wheelsets."""
 
     folder: ClassVar[str] = "vehicles"
+    lowest_frequency: ClassVar[float] = 0.3
+    """Hz, chosen: half of what the library's cars have at least (0.66 Hz, bounce of the CRH380A)."""
 
     schema_id: Literal["uictest/vehicle/1"] = schema_field("uictest/vehicle/1")
     body: Body = field("The car body.")
@@ -184,22 +387,21 @@ class Vehicle(Part):
         elif self.payload is not None and self.carried_mass > self.payload:
             yield Inconsistency(("load",), f"more than the payload of {self.payload.text}")
 
-    def _impossible_wheels(self, radius: float, place: Key) -> Iterator[Inconsistency]:
-        """Yield wheels of a radius, given at a key, that overlap or have too much inertia."""
-        name, regular = ".".join(map(str, place)), place[0] == "wheelset"
+    def _impossible_wheels(self, radius: float, key: Key) -> Iterator[Inconsistency]:
+        name, regular = ".".join(map(str, key)), key[0] == "wheelset"
         if self.bogie.half_wheelbase <= radius:
             yield Inconsistency(
-                ("bogie", "half_wheelbase") if regular else place,
+                ("bogie", "half_wheelbase") if regular else key,
                 f"the wheels of a bogie overlap: half_wheelbase must exceed {name}",
             )
         if self.half_pivot_distance <= self.bogie.half_wheelbase + radius:
             yield Inconsistency(
-                ("half_pivot_distance",) if regular else place,
+                ("half_pivot_distance",) if regular else key,
                 f"the bogies overlap: it must exceed bogie.half_wheelbase + {name}",
             )
         if self.wheelset.rotational_inertia > self.wheelset.mass * radius**2:
             yield Inconsistency(
-                ("wheelset", "rotational_inertia") if regular else place,
+                ("wheelset", "rotational_inertia") if regular else key,
                 "no wheelset of this mass and radius has this inertia",
                 f"at most mass x radius2 = {self.wheelset.mass * radius**2:.4g} kg m2",
             )
@@ -217,10 +419,51 @@ class Vehicle(Part):
             (("traction_link", "stiffness"), pull, body),
         ):
             frequency = (stiffness / mass) ** 0.5 / math.tau
-            if frequency < LOWEST_FREQUENCY:
+            if frequency < self.lowest_frequency:
                 yield Inconsistency(
                     key,
                     f"too soft: {mass / 1000.0:.4g} t swing at {frequency:.2g} Hz on these springs",
-                    f"at least {LOWEST_FREQUENCY} Hz are accepted, a stiffness"
-                    f" {(LOWEST_FREQUENCY / frequency) ** 2:.3g} times as large",
+                    f"at least {self.lowest_frequency} Hz are accepted, a stiffness"
+                    f" {(self.lowest_frequency / frequency) ** 2:.3g} times as large",
                 )
+
+
+class Coupler(Model):
+    """The couplers of a train, all alike: a spring and a damper without slack."""
+
+    largest_steadiness: ClassVar[float] = 1.0
+    """Largest dt^2 K + 2 dt C with K = 4 k/m and C = 4 c/m; chosen: a chain of masses is stable up to 4, and
+    the springs of the cars come on top."""
+
+    distance: Quantity = quantity(
+        "Between the centres of neighbouring cars; 26.4 m is the usual length of a coach over its buffers.",
+        "length",
+        "5 m .. 60 m",
+        default="26.4 m",
+    )
+    stiffness: Quantity = quantity(
+        "Stiffness of a coupler; the default is that of open data of an eight-car unit. The least is chosen:"
+        " one much softer lets cars run through each other.",
+        "stiffness",
+        "100 kN/m .. 100 MN/m",
+        default="5 MN/m",
+    )
+    damping: Quantity = quantity(
+        "Damping of a coupler; the default is that of open data of an eight-car unit.",
+        "damping",
+        "0 N s/m .. 10 MN s/m",
+        default="0.8 MN s/m",
+    )
+    height: Quantity = quantity(
+        "Height of a coupler above the rail; the default is chosen.",
+        "length",
+        "0 m .. 3 m",
+        default="1.025 m",
+    )
+
+
+def load_share(valve: LoadValve | None, vehicle: Vehicle) -> float:
+    """Return the pressure that the load of a vehicle leaves, over that of the full one."""
+    if valve is None or vehicle.payload is None:
+        return 1.0
+    return valve.empty_share + (1.0 - valve.empty_share) * (vehicle.carried_mass / vehicle.payload)

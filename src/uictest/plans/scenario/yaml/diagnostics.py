@@ -1,12 +1,103 @@
-"""Diagnostics: the place in a file, what is wrong, and what to write."""
+"""Diagnostics: the place in a file, what is wrong, what to write, and how user text is worded."""
 
+import re
 import traceback
 import unicodedata
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Final, NamedTuple
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from pathlib import Path
+from typing import Final, NamedTuple, TypeVar
 
-from uictest.plans.scenario.yaml.tree import Node, Place, visible
+COMMAND_LINE: Final = "--set"
+"""Display name of values from the command line, in place of a file name."""
+# libyaml counts these as line breaks, so excerpts must too.
+_LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """One text that was read: a file, a library file, or an option of the command line."""
+
+    display: str
+    """Name shown in messages."""
+    folder: Path
+    """Where relative paths inside it start."""
+    text: str
+    sha256: str = ""
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """The lines of the text as YAML counts them."""
+        return _LINE_BREAK.split(self.text)
+
+
+class Location(NamedTuple):
+    """A position in a document, counted from one."""
+
+    document: Document
+    line: int = 1
+    column: int = 1
+
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
+QUOTED_LENGTH: Final = 60
+EXAMPLE_LENGTH: Final = 80
+
+
+def visible(text: str) -> str:
+    """``text`` with every character that a terminal would act on, or not show, written as an escape."""
+    if text.isprintable():
+        return text
+    return "".join(char if char.isprintable() else _escape(char) for char in text)
+
+
+def _escape(char: str) -> str:
+    code = ord(char)
+    if code <= 0xFF:
+        return f"\\x{code:02x}"
+    return f"\\u{code:04x}" if code <= 0xFFFF else f"\\U{code:08x}"
+
+
+def quoted(text: str) -> str:
+    """``text`` in single quotes, escaped and cut to a readable length."""
+    short = text if len(text) <= QUOTED_LENGTH else text[: QUOTED_LENGTH - 3] + "..."
+    return f"'{visible(short)}'"
+
+
+def short_example(text: str) -> str:
+    """Return the text, escaped; empty if it is too long for a hint, since half an example is wrong."""
+    return visible(text) if len(text) <= EXAMPLE_LENGTH else ""
+
+
+def nearest(text: str, valid: Iterable[str]) -> str | None:
+    """The valid name that ``text`` was probably meant to be."""
+    candidates = list(valid)
+    matches = get_close_matches(
+        text[:QUOTED_LENGTH].lower(), [name.lower() for name in candidates], n=1, cutoff=0.6
+    )
+    if not matches:
+        return longer_name(text, candidates)
+    return next(name for name in candidates if name.lower() == matches[0])
+
+
+def longer_name(text: str, valid: Iterable[str]) -> str | None:
+    """The one valid name of which ``text`` is a whole word: `initial_speed` for `speed`."""
+    longer = [name for name in valid if text.lower() in name.lower().split("_")]
+    return longer[0] if len(longer) == 1 else None
+
+
+def suggestion(text: str, valid: Iterable[str]) -> str:
+    """A hint that names the nearest valid name, or else lists what is accepted."""
+    candidates = sorted(valid)
+    guess = nearest(text, candidates)
+    if guess is not None:
+        return f"did you mean {quoted(guess)}?"
+    return "accepted: " + ", ".join(candidates) if candidates else ""
+
 
 EXCERPT_WIDTH: Final = 100
 _LEAD: Final = 60
@@ -46,7 +137,7 @@ class ScenarioErrors(Exception):  # noqa: N818 - it holds many errors, and its n
     ``salvaged`` is the tree of a file that could be read in spite of them: more errors may be found in it.
     """
 
-    def __init__(self, diagnostics: Iterable[Diagnostic], salvaged: Node | None = None) -> None:
+    def __init__(self, diagnostics: Iterable[Diagnostic], salvaged: object = None) -> None:
         self.diagnostics = tuple(dict.fromkeys(diagnostics))
         self.salvaged = salvaged
         super().__init__(self.diagnostics)
@@ -60,21 +151,21 @@ class ScenarioErrors(Exception):  # noqa: N818 - it holds many errors, and its n
         return tuple(each.trace for each in self.diagnostics if each.trace)
 
 
-def diagnose(place: Place, message: str, key: str = "", hint: str = "") -> Diagnostic:
+def diagnose(location: Location, message: str, key: str = "", hint: str = "") -> Diagnostic:
     """A diagnostic at ``place`` with an excerpt; ``message`` and ``hint`` must be escaped already."""
     return Diagnostic(
-        file=visible(place.document.display),
-        line=place.line,
-        column=place.column,
+        file=visible(location.document.display),
+        line=location.line,
+        column=location.column,
         key=visible(key),
         message=message,
-        excerpt=_excerpt(place),
+        excerpt=_excerpt(location),
         hint=hint,
     )
 
 
 @contextmanager
-def collecting(diagnostics: list[Diagnostic], place: Place) -> Iterator[None]:
+def collecting(diagnostics: list[Diagnostic], location: Location) -> Iterator[None]:
     """Append the errors of a file, or of a case in it, at ``place`` those of the program: others go on."""
     try:
         yield
@@ -83,7 +174,7 @@ def collecting(diagnostics: list[Diagnostic], place: Place) -> Iterator[None]:
     except Exception as error:
         message = visible(f"internal error: {type(error).__name__}: {error}")
         trace = visible(traceback.format_exc()).replace("\\x0a", "\n").rstrip()
-        diagnostics.append(diagnose(place, message)._replace(trace=trace))
+        diagnostics.append(diagnose(location, message)._replace(trace=trace))
 
 
 def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
@@ -94,25 +185,42 @@ def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     return sorted(diagnostics, key=lambda each: (file_order[each.file], each.line, each.column))
 
 
-def single_error(place: Place, message: str, key: str = "", hint: str = "") -> ScenarioErrors:
+def require_none(diagnostics: Iterable[Diagnostic]) -> None:
+    """Raise ScenarioErrors with these errors in reading order; with none, do nothing."""
+    found = list(dict.fromkeys(diagnostics))
+    if found:
+        raise ScenarioErrors(in_reading_order(found))
+
+
+def read_each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Result]:
+    """Return what is read from each item. Raises ScenarioErrors with the errors of all of them."""
+    results: list[_Result] = []
+    diagnostics: list[Diagnostic] = []
+    for item in items:
+        try:
+            results.append(read(item))
+        except ScenarioErrors as errors:
+            diagnostics.extend(errors.diagnostics)
+    require_none(diagnostics)
+    return results
+
+
+def single_error(location: Location, message: str, key: str = "", hint: str = "") -> ScenarioErrors:
     """One diagnostic as an exception."""
-    return ScenarioErrors([diagnose(place, message, key, hint)])
+    return ScenarioErrors([diagnose(location, message, key, hint)])
 
 
-def _excerpt(place: Place) -> str:
-    lines = place.document.lines
-    if not 1 <= place.line <= len(lines) or not lines[place.line - 1].strip():
+def _excerpt(location: Location) -> str:
+    lines = location.document.lines
+    if not 1 <= location.line <= len(lines) or not lines[location.line - 1].strip():
         return ""
-    line, at = lines[place.line - 1], place.column - 1
+    line, at = lines[location.line - 1], location.column - 1
     start = max(0, at - _LEAD)
     before, after = line[start:at], line[at : start + EXCERPT_WIDTH]
     shown = _shown(before)
-    return f"{shown}{_shown(after)}\n{' ' * _width(shown)}^".rstrip("\n")
+    width = sum(2 if unicodedata.east_asian_width(char) in "WF" else 1 for char in shown)
+    return f"{shown}{_shown(after)}\n{' ' * width}^"
 
 
 def _shown(text: str) -> str:
     return visible(text.replace("\t", " "))
-
-
-def _width(text: str) -> int:
-    return sum(2 if unicodedata.east_asian_width(char) in "WF" else 1 for char in text)

@@ -1,7 +1,8 @@
 """Base classes of all models of files, and the keys that a model accepts."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
+from operator import attrgetter
 from typing import Any, ClassVar, Final, Literal, NamedTuple, Self, get_args, get_origin
 
 from pydantic import (
@@ -15,8 +16,8 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, PydanticCustomError
 
+from uictest.plans.scenario.yaml.diagnostics import quoted, suggestion
 from uictest.plans.scenario.yaml.quantities import DEFAULT_SOURCE, SCENARIO_SOURCE, Quantity
-from uictest.plans.scenario.yaml.tree import quoted, suggestion
 
 Key = tuple[str | int, ...]
 
@@ -98,9 +99,7 @@ class Part(Model):
         description="What the file holds and which version of it, e.g. uictest/vehicle/1.",
     )
     name: str = Field(
-        default="inline",
-        pattern=NAME_PATTERN,
-        description="Name of the part: lower case, no blanks.",
+        default="inline", pattern=NAME_PATTERN, description="Name of the part: lower case, no blanks."
     )
     title: str = Field(default="", max_length=200, description="One line for people.")
     sources: dict[str, Source] = Field(
@@ -182,10 +181,6 @@ class PartReference(NamedTuple):
         return {"default": self.default, "anyOf": [_LIBRARY_NAME_OR_PATH, inline, listed]}
 
 
-_WITHOUT_QUANTITIES: Final = frozenset({type(None), bool, int, float, str})
-"""Types of most fields; every part is searched when it is read."""
-
-
 def unknown_sources(
     quantities: Iterable[tuple[Key, Quantity]], described: Iterable[str]
 ) -> Iterator[tuple[Key, str]]:
@@ -198,21 +193,140 @@ def unknown_sources(
         yield from (((*key, name), source) for name, source in named.items() if source not in known)
 
 
-def quantities_in(value: object, key: Key = (), *, parts: bool = True) -> Iterator[tuple[Key, Quantity]]:
-    """Yield every quantity inside a model, tuple or mapping with its key; of `parts` inside, too."""
-    if isinstance(value, Quantity):
-        yield key, value
+Value = Quantity | str | int | float
+
+DESCRIPTIVE: Final = frozenset(
+    {
+        *("schema_id", "id", "name", "title", "description", "tags", "extends"),
+        *("sources", "source", "clause", "scope", "provenance"),
+        *("requirements", "test_case", "validated", "declared_parameters", "free_parameters"),
+        *("matrix", "zip", "include", "exclude", "expect", "repeat", "outcome_of_repeats", "firm"),
+    }
+)
+"""Fields that a stop cannot depend on: names, sources, expectations, repeats and references to results.
+
+Declarations of a controller's parameters are among them: their defaults stand in `parameters`.
+"""
+_SINGLE: Final = frozenset({Quantity, str, int, float, bool})
+
+
+@cache
+def declared_values(model: type[BaseModel]) -> tuple[tuple[Key, str], ...]:
+    """Return the key in a file and the dotted attribute of every field that a stop can depend on.
+
+    In place of a section that every instance has stand the fields of the section.
+    """
+    fields: list[tuple[Key, str]] = []
+    for name, field in model.model_fields.items():
+        key, inside = field.alias or name, field.annotation
+        if name in DESCRIPTIVE:
+            continue
+        if isinstance(inside, type) and issubclass(inside, Model) and not issubclass(inside, Part):
+            fields += [((key, *below), f"{name}.{attribute}") for below, attribute in declared_values(inside)]
+        else:
+            fields.append(((key,), name))
+    return tuple(fields)
+
+
+_getter: Final = cache(attrgetter)
+
+
+def _collect(value: object, key: Key, found: list[tuple[Key, Value]], *, parts: bool, ids: bool) -> None:
+    if isinstance(value, str | int | float):
+        found.append((key, value))
+        if (digest := getattr(value, "sha256", None)) is not None:
+            found.append(((*key[:-1], "sha256"), digest))
         return
-    inside: Iterable[tuple[Any, Any]] = ()
-    if isinstance(value, tuple):
-        inside = enumerate(value)
+    inside: Iterable[tuple[Key, object]] = ()
+    if isinstance(value, BaseModel) and (parts or not key or not isinstance(value, Part)):
+        inside = [(below, _getter(name)(value)) for below, name in declared_values(type(value))]
     elif isinstance(value, dict):
-        inside = value.items()
-    elif isinstance(value, BaseModel) and (parts or not isinstance(value, Part)):
-        inside = value.__dict__.items()
-    for name, inner in inside:
-        if type(inner) not in _WITHOUT_QUANTITIES:
-            yield from quantities_in(inner, (*key, name), parts=parts)
+        inside = [((name,), inner) for name, inner in value.items()]
+    elif isinstance(value, tuple):
+        inside = [
+            ((getattr(inner, "id", index) if ids else index,), inner) for index, inner in enumerate(value)
+        ]
+    for below, inner in inside:
+        if type(inner) in _SINGLE:
+            found.append(((*key, *below), inner))  # type: ignore[arg-type]
+        elif inner is not None:
+            _collect(inner, (*key, *below), found, parts=parts, ids=ids)
+
+
+def values_in(value: object, key: Key = ()) -> list[tuple[Key, Value]]:
+    """Return every number and setting inside a model, tuple or mapping with its key.
+
+    A criterion is named by its id. Parts inside are skipped, and so are values that are not set. Beside the
+    path of a program stands the SHA-256 of its file.
+    """
+    found: list[tuple[Key, Value]] = []
+    _collect(value, key, found, parts=False, ids=True)
+    return found
+
+
+def quantities_in(value: object, key: Key = (), *, parts: bool = True) -> list[tuple[Key, Quantity]]:
+    """Return every quantity inside a model, tuple or mapping with its key; of `parts` inside, too."""
+    found: list[tuple[Key, Value]] = []
+    _collect(value, key, found, parts=parts, ids=False)
+    return [(each, number) for each, number in found if isinstance(number, Quantity)]
+
+
+class DescribedValue(NamedTuple):
+    """A number or setting, and what is said of it.
+
+    Attributes:
+        elements: of its key.
+        key: the same, dotted.
+        value: a number in `unit`, a text or a truth value.
+        unit: SI, `1` for a pure number, empty for a setting.
+        written: the value as a file writes it.
+        mark: of the source of a number; `user` for one without, `default` for one that the file leaves out;
+            empty for a setting.
+        source: a key of the part's `sources`, else empty.
+    """
+
+    elements: Key
+    key: str
+    value: str | int | float
+    unit: str
+    written: str
+    mark: str
+    source: str
+
+
+def described_values(value: object, sources: Mapping[str, Source], key: Key = ()) -> list[DescribedValue]:
+    """Return the values of :func:`values_in` with all that is said of them."""
+    described: list[DescribedValue] = []
+    said: tuple[str | int | float, str, str, str, str]
+    for elements, found in values_in(value, key):
+        dotted = ".".join(map(str, elements))
+        if isinstance(found, Quantity):
+            source = found.source if found.source in sources else ""
+            said = (float(found), found.unit, found.text, mark_of(found, sources), source)
+        else:
+            setting = float(found) if isinstance(found, float) else found
+            text = str(found).lower() if isinstance(found, bool) else str(found)
+            said = (setting, "", text, "", "")
+        described.append(DescribedValue(elements, dotted, *said))
+    return described
+
+
+_UNSOURCED: Final = {SCENARIO_SOURCE: "user", DEFAULT_SOURCE: "default"}
+
+
+def mark_of(quantity: Quantity, sources: Mapping[str, Source]) -> str:
+    """Return the mark of the source; `user` for a number without one, `default` for one that a file omits.
+
+    Empty where `sources` are not those of the quantity's part.
+    """
+    source = sources.get(quantity.source)
+    return _UNSOURCED.get(quantity.source, "") if source is None else source.mark
+
+
+def is_changed(part: Part) -> bool:
+    """Return whether a value of a part differs from the part at the root of its `extends`."""
+    original = part.original
+    return original is not None and dict(values_in(part)) != dict(values_in(original))
 
 
 @cache

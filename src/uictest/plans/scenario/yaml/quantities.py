@@ -1,4 +1,4 @@
-"""Physical quantities: numbers in SI units that remember how they were written, and decimals with a unit."""
+"""Physical quantities: SI numbers that remember how they were written, and fields that hold them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from uictest.core.units import KINDS, Kind
-from uictest.plans.scenario.yaml.tree import nearest, quoted
+from uictest.plans.scenario.yaml.diagnostics import nearest, quoted
 
 SCENARIO_SOURCE: Final = "scenario"
 """Source of a number that a user wrote in a scenario."""
@@ -26,7 +26,6 @@ Prior = Literal["uniform", "log-uniform"]
 """How likely the values of a plausible range are: all of them alike, or all factors of one size alike."""
 DEFAULT_PRIOR: Final = "uniform"
 """Where a range states none: two ends and nothing else prefer no value; chosen."""
-
 # Bounded digits and exponent: an exact fraction of 1e999999999 would fill the memory.
 NUMBER_PATTERN: Final = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
 _WRITTEN = re.compile(rf"\s*({NUMBER_PATTERN})(?![0-9.])\s*(\S.*)?", re.DOTALL)
@@ -73,7 +72,7 @@ class Quantity(float):
 
 
 def total(numbers: Iterable[float]) -> float:
-    """Return the sum, of ensembles of numbers as well, added up from the left.
+    """Return the sum of numbers, added up from the left.
 
     It has the same bits on every Python: from 3.12 on, `sum` rounds numbers otherwise.
     """
@@ -89,6 +88,11 @@ class QuantityError(ValueError):
         self.hint = hint
 
 
+def refused(message: str, hint: str = "", kind: Any = "refused") -> PydanticCustomError:
+    """Return what a validator raises: what is wrong with a value, and what to write."""
+    return PydanticCustomError(kind, "{message}", {"message": message, "hint": hint})
+
+
 Accepts = Callable[[float], bool]
 """Whether a value, in the canonical unit, is in the range of its field."""
 
@@ -96,13 +100,12 @@ Accepts = Callable[[float], bool]
 def parse_quantity(
     text: str, kind: str, source: str = SCENARIO_SOURCE, accepts: Accepts = math.isfinite
 ) -> Quantity:
-    """Read ``text`` (number and unit, blanks between them optional) as a quantity of the named kind.
+    """Return a quantity of the named kind, from a number and its unit, blanks between them optional.
 
     ``accepts`` decides which units the hint names when there is none. Raises QuantityError when the text is
     no such quantity.
     """
-    accepted = KINDS[kind]
-    value = _canonical_value(text, kind)
+    value, accepted = _canonical_value(text, kind), KINDS[kind]
     if value is None:
         raise _no_quantity(text, accepted, accepts)
     if not math.isfinite(value):
@@ -117,8 +120,8 @@ def _canonical_value(text: str, kind: str) -> float | None:
     if written is None:
         return None
     (number, symbol), accepted = written, KINDS[kind]
-    if accepted.bare:
-        return None if symbol else _as_float(number)
+    if not symbol:
+        return _as_float(number) if accepted.bare else None
     unit = accepted.units.get(symbol)
     return None if unit is None else _as_float(number * unit.factor + unit.offset)
 
@@ -279,6 +282,12 @@ def common_unit(quantities: Sequence[DecimalQuantity]) -> str | None:
     return units.pop() if len(units) == 1 else None
 
 
+@lru_cache(maxsize=1024)
+def unit_as_written(text: str) -> str:
+    """Return the unit of a quantity as its text has it, empty for a bare number."""
+    return parse_decimal_quantity(text).unit
+
+
 def _validate(value: Any) -> DecimalQuantity:
     text = getattr(value, "text", value)
     try:
@@ -286,8 +295,7 @@ def _validate(value: Any) -> DecimalQuantity:
             raise ValueError("expected a number with its unit")
         return parse_decimal_quantity(str(text))
     except ValueError as error:
-        context = {"message": str(error), "hint": "write it as in a scenario: 0.1, 80 %, 120 km/h"}
-        raise PydanticCustomError("amount", "{message}", context) from None
+        raise refused(str(error), "write it as in a scenario: 0.1, 80 %, 120 km/h") from None
 
 
 DecimalQuantityField = Annotated[

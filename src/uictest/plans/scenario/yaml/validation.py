@@ -3,12 +3,22 @@
 import re
 from collections.abc import Iterator
 from decimal import Decimal
-from typing import Annotated, Any, Final, get_args, get_origin
+from typing import Annotated, Any, Final, Generic, TypeVar, get_args, get_origin
 
-from pydantic import ValidationError, create_model
+from pydantic import BaseModel, ValidationError
 
 from uictest.plans import library
-from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose
+from uictest.plans.scenario.yaml.diagnostics import (
+    EXAMPLE_LENGTH,
+    Diagnostic,
+    ScenarioErrors,
+    diagnose,
+    longer_name,
+    quoted,
+    short_example,
+    suggestion,
+    visible,
+)
 from uictest.plans.scenario.yaml.model import (
     Key,
     PartReference,
@@ -19,21 +29,7 @@ from uictest.plans.scenario.yaml.model import (
     models_in,
 )
 from uictest.plans.scenario.yaml.quantities import NUMBER_PATTERN
-from uictest.plans.scenario.yaml.tree import (
-    EXAMPLE_LENGTH,
-    Node,
-    Scalar,
-    Sequence,
-    as_written,
-    describe,
-    entry_at,
-    longer_name,
-    plain,
-    quoted,
-    short_example,
-    suggestion,
-    visible,
-)
+from uictest.plans.scenario.yaml.tree import List, Node, Scalar, as_written, describe, entry_at, plain
 
 _FEWEST_LETTERS: Final = 3
 """Letters from which on the beginning of a name is taken for it; chosen."""
@@ -53,29 +49,19 @@ def hint_for_key(model: Any, key: Key, written: Key, node: Node) -> str:
     """
     name = str(key[-1])
     accepted = accepted_keys(model, key[:-1])
-    half = _half(name, accepted)
-    if half:
-        value = _halved(node)
-        return f"write `{f'{half}: {value}' if value else half}`, half the {visible(name.replace('_', ' '))}"
+    radius = name.replace("diameter", "radius")
+    halves = (f"half_{name}", *((radius, radius.partition("_")[2]) if radius != name else ()))
+    if half := next((half for half in halves if half in accepted), ""):
+        number = _WRITTEN.fullmatch(node.text) if isinstance(node, Scalar) else None
+        value = "" if number is None else visible(f": {Decimal(number[1]) / 2:f}{number[2]}")
+        return f"write `{half}{value}`, half the {visible(name.replace('_', ' '))}"
     longer = longer_name(name, accepted)
     if longer is not None:
         return f"did you mean '{longer}'?"
-    places = [".".join(place) for place in _places(model, name) if place != written]
+    places = [".".join(other) for other in _places(model, name) if other != written]
     if len(places) == 1:
         return f"did you mean {places[0]}?"
     return f"keys of that name: {', '.join(places)}" if places else suggestion(name, accepted)
-
-
-def _half(name: str, accepted: set[str]) -> str:
-    """The accepted key that holds half of what ``name`` says: a radius, half a wheelbase."""
-    radius = name.replace("diameter", "radius")
-    halves = (f"half_{name}", *((radius, radius.partition("_")[2]) if radius != name else ()))
-    return next((half for half in halves if half in accepted), "")
-
-
-def _halved(node: Node) -> str:
-    match = _WRITTEN.fullmatch(node.text) if isinstance(node, Scalar) else None
-    return "" if match is None else visible(f"{Decimal(match[1]) / 2:f}{match[2]}")
 
 
 def _places(model: Any, name: str) -> list[tuple[str, ...]]:
@@ -85,14 +71,14 @@ def _places(model: Any, name: str) -> list[tuple[str, ...]]:
         places = [(*above, name) for above, each in level if name in each.model_fields]
         if places:
             return list(dict.fromkeys(places))
-        level = [((*above, inner), below) for above, each in level for inner, below in _sections(each)]
+        level = [
+            ((*above, inner), below)
+            for above, each in level
+            for inner, field in each.model_fields.items()
+            if get_origin(field.annotation) not in (dict, tuple)
+            for below in models_in(field.annotation)
+        ]
     return []
-
-
-def _sections(model: Any) -> Iterator[tuple[str, Any]]:
-    for name, field in model.model_fields.items():
-        if get_origin(field.annotation) not in (dict, tuple):
-            yield from ((name, each) for each in models_in(field.annotation))
 
 
 def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
@@ -111,19 +97,26 @@ def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
     return "a mapping of " + ", ".join(sorted(keys)) if keys else ""
 
 
+_Type = TypeVar("_Type")
+
+
+class _Alone(BaseModel, Generic[_Type]):
+    """A field on its own, in a model since its validators may look at the fields before it."""
+
+    field: _Type
+
+
 def _accepts(field: Any, node: Node) -> bool:
     """Whether a field accepts a value; free text, which accepts everything, does not count."""
     references = [mark for mark in field.metadata if isinstance(mark, PartReference)]
     if references:
         folder = models_in(references[0].model)[0].folder
         return isinstance(node, Scalar) and node.text in library.names(folder)
-    if field.annotation is str or node == Scalar(None, "", node.place):
+    if field.annotation is str or node == Scalar(None, "", node.location):
         return False
     annotation: Any = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
-    # A model, since validators of fields may look at the fields before theirs.
-    alone: Any = create_model("Alone", field=(annotation, ...))
     try:
-        return alone(field=plain(node)).field is not None
+        return _Alone[annotation](field=plain(node)).field is not None
     except ValidationError:
         return False
 
@@ -144,14 +137,17 @@ def validated(model: Any, data: object, tree: Node, prefix: Key = ()) -> Any:
 
 def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Diagnostic]:
     key: Key = error["loc"]
-    context = error.get("ctx", {})
+    context, written = error.get("ctx", {}), _written_key(key, tree)
     if error["type"] == "inconsistency":
-        for inconsistency in context["inconsistencies"]:
-            entry, _ = entry_at(tree, (*key, *inconsistency.key))
-            written = dotted((*prefix, *_written_key(key, tree), *inconsistency.key))
-            yield diagnose(entry.node.place, inconsistency.message, written, inconsistency.hint)
+        for below, message, hint in context["inconsistencies"]:
+            entry, _ = entry_at(tree, (*key, *below))
+            yield diagnose(entry.node.location, message, dotted((*prefix, *written, *below)), hint)
     elif error["type"] == "extra_forbidden":
-        yield _unknown_key(key, model, tree, prefix)
+        entry, _ = entry_at(tree, key)
+        name, hint = str(key[-1]), hint_for_key(model, key, written, entry.node)
+        if "." in name:
+            hint = "dotted keys belong in matrix, zip, include, exclude and --set; write nested keys here"
+        yield diagnose(entry.key, f"unknown key {quoted(name)}", dotted((*prefix, *written)), hint)
     elif error["type"].startswith("union_tag"):
         yield _unknown_member(key, context, model, tree, prefix)
     elif error["type"] == "missing":
@@ -161,8 +157,8 @@ def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Dia
     else:
         node = entry_at(tree, key)[0].node
         message, hint = _worded(error, context, node)
-        place = (*prefix, *_written_key(key, tree))
-        yield _at(key, message, _hint_of_shape(error["type"], model, key, place, node) or hint, tree, prefix)
+        hint = _hint_of_shape(error["type"], model, key, (*prefix, *written), node) or hint
+        yield _at(key, message, hint, tree, prefix)
 
 
 def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) -> str:
@@ -174,7 +170,7 @@ def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) ->
             return ""
         return short_example(f"write `{written[-1]}: [{as_written(node)}]`") or "write a list"
     varies = len(written) > len(key) or "matrix" in accepted_keys(model, ())
-    if isinstance(node, Sequence) and kind in _SINGLE and varies:
+    if isinstance(node, List) and kind in _SINGLE and varies:
         example = short_example(f": `matrix: {{{dotted(written)}: {as_written(node)}}}`")
         return f"several values go under matrix{example}"
     return ""
@@ -183,18 +179,8 @@ def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) ->
 def _at(key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key = ()) -> Diagnostic:
     entry, _ = entry_at(tree, key)
     # A missing key is reported at the key of the mapping that lacks it.
-    place = entry.key if beyond else entry.node.place
-    return diagnose(place, message, dotted((*prefix, *_written_key(key, tree), *beyond)), hint)
-
-
-def _unknown_key(key: Key, model: Any, tree: Node, prefix: Key) -> Diagnostic:
-    entry, _ = entry_at(tree, key)
-    name = str(key[-1])
-    written = _written_key(key, tree)
-    hint = hint_for_key(model, key, written, entry.node)
-    if "." in name:
-        hint = "dotted keys belong in matrix, zip, include, exclude and --set; write nested keys here"
-    return diagnose(entry.key, f"unknown key {quoted(name)}", dotted((*prefix, *written)), hint)
+    location = entry.key if beyond else entry.node.location
+    return diagnose(location, message, dotted((*prefix, *_written_key(key, tree), *beyond)), hint)
 
 
 def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, prefix: Key) -> Diagnostic:
@@ -224,7 +210,6 @@ def _written_key(key: Key, tree: Node) -> Key:
 
 
 def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
-    """Message and hint for an error of a single value."""
     kind = error["type"]
     if "message" in context:
         return context["message"], context.get("hint", "")
@@ -246,7 +231,7 @@ def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
             hint = f'write it in quotes: "{visible(text)}"'
         if kind in ("bool_type", "bool_parsing") and isinstance(node, Scalar):
             hint = _meant(text, ["true", "false"])
-        if kind == "int_type" and text.isdecimal() and node == Scalar(text, text, node.place):
+        if kind == "int_type" and text.isdecimal() and node == Scalar(text, text, node.location):
             hint = f"write {text} without quotes"
         shown = f" ({quoted(text)})" if text else ""
         return f"expected {_EXPECTED[kind]}, found {describe(node)}{shown}", hint

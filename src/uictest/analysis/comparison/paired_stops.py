@@ -1,0 +1,401 @@
+"""Stops under the same noise on two sides: their groups, paired differences, and the variants of a run."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from statistics import median
+from typing import Any, Final, NamedTuple
+
+from uictest.core import envelope
+from uictest.core.measures import column_unit
+from uictest.core.series_measures import Estimate, mean_of, median_of
+from uictest.judging import evaluation
+from uictest.judging.evaluation import CaseResult, RepeatedStop, json_form
+from uictest.judging.series import SeriesResult, SpeedResult
+from uictest.plans.scenario.yaml import nearest
+from uictest.report import RunContent
+
+LARGEST: Final = "largest_"
+"""Before the name of a column of wheelsets: its largest value of the four."""
+
+_BALANCES: Final = frozenset({"energy_residual", "air_residual", "air_energy_residual"})
+"""Columns that check the simulation and say nothing of the stop."""
+
+_SPREADS: Final = ("rail.variation.spread", "rail.condition.variation.spread")
+"""Keys of the spread of a random rail; the first replaces the second."""
+
+Figures = Mapping[str, float]
+"""Quantities of one stop -> number in the unit of the column, NaN where there is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Draw:
+    """What two stops must share to be a pair.
+
+    `conditions` tells the stops of a series apart; it is empty for the stops of one case. `noise_key` is
+    empty where it is not known. `random_rail` says whether friction varies at random, by the seed alone.
+    """
+
+    conditions: str
+    noise_key: str
+    seed: int | None
+    random_rail: bool = field(default=False, compare=False)
+
+
+def drawn_stops(case: evaluation.CaseResult, conditions: str = "") -> Iterator[tuple[Draw, Figures]]:
+    """Yield the stops of a case that have measures: a case without repeats is one stop."""
+    random_rail = _has_random_rail(case)
+    stops: Sequence[CaseResult | RepeatedStop] = [case] if case.repeats is None else case.repeats.stops
+    for stop in stops:
+        if stop.measures is not None:
+            seed = _seed_of(stop) if isinstance(stop, CaseResult) else stop.seed
+            figures = _figures(stop.measures, stop.wheelsets)
+            yield Draw(conditions, case.noise_key, seed, random_rail), figures
+
+
+def _has_random_rail(case: evaluation.CaseResult) -> bool:
+    spreads = {
+        each.key: each.value
+        for part in case.parts.values()
+        for each in part.parameters
+        if each.key in _SPREADS
+    }
+    return next((bool(spreads[key]) for key in _SPREADS if key in spreads), False)
+
+
+def quantity_unit(quantity: str) -> str:
+    """Return the unit of a quantity of stops."""
+    return column_unit(quantity.removeprefix(LARGEST))
+
+
+def _seed_of(case: evaluation.CaseResult) -> int | None:
+    """Return the seed of a case with one stop; None where its parameters are not known."""
+    part = case.parts.get("scenario")
+    values = [each.value for each in part.parameters if each.key == "seed"] if part else []
+    return int(values[0]) if values else None
+
+
+def _figures(measures: Mapping[str, float], wheelsets: tuple[Mapping[str, float], ...]) -> Figures:
+    of_stop = {name: value for name, value in measures.items() if name not in _BALANCES}
+    columns = wheelsets[0] if wheelsets else ()
+    return of_stop | {f"{LARGEST}{name}": _largest([each[name] for each in wheelsets]) for name in columns}
+
+
+def _largest(values: list[float]) -> float:
+    return math.nan if any(map(math.isnan, values)) else max(values)
+
+
+CONFIDENCE: Final = 0.95
+"""Confidence of every interval."""
+
+FEWEST_PAIRS: Final = 2
+"""Pairs without which there is no interval of a mean."""
+
+Stops = Mapping[Draw, Figures]
+
+
+@dataclass(frozen=True, slots=True)
+class PairedDifference:
+    """By how much a quantity of the second variant exceeds that of the first, over pairs of stops.
+
+    Args:
+        quantity: a column of stops, or `largest_` and a column of wheelsets.
+        unit: of all numbers.
+        first, second: medians of both sides over the pairs.
+        mean: of the differences, with its interval by Student's t.
+        median: of the differences, with its interval by order statistics.
+        larger, smaller: pairs in which the second is larger, or smaller.
+        missing: pairs left out because one stop has no such number.
+
+    """
+
+    quantity: str
+    unit: str
+    first: float
+    second: float
+    mean: Estimate
+    median: Estimate
+    larger: int
+    smaller: int
+    missing: int
+
+    @property
+    def pairs(self) -> int:
+        """The number of pairs."""
+        return self.mean.stops
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether both sides are the same in every pair."""
+        return self.larger == self.smaller == 0
+
+
+@dataclass(frozen=True, slots=True)
+class PairedGroup:
+    """The pairs of one case, or of the stops of a series from one speed.
+
+    `draws` counts the draws of noise: fewer than `pairs` where stops under other conditions met the same one.
+    Stops on random rails meet the same one under the same seed, whatever else differs.
+    `unpaired` counts the stops of the first and of the second side without a partner.
+    """
+
+    name: str
+    seeds: tuple[int, ...]
+    pairs: int
+    draws: int
+    unpaired: tuple[int, int]
+    differences: tuple[PairedDifference, ...]
+
+
+def paired_group(name: str, first: Stops, second: Stops) -> PairedGroup:
+    """Return the differences of all stops that pair. Raises ValueError, with the reason, where too few do."""
+    common = [draw for draw in first if draw in second and draw.noise_key and draw.seed is not None]
+    if len(common) < FEWEST_PAIRS:
+        raise ValueError(_why_too_few(first, second, len(common)))
+    random_rail = any(draw.random_rail for draw in (*first, *second))
+    return PairedGroup(
+        name,
+        tuple(sorted({draw.seed for draw in common if draw.seed is not None})),
+        len(common),
+        len({draw.seed if random_rail else (draw.noise_key, draw.seed) for draw in common}),
+        (len(first) - len(common), len(second) - len(common)),
+        tuple(_differences([(first[draw], second[draw]) for draw in common])),
+    )
+
+
+def _differences(pairs: Sequence[tuple[Figures, Figures]]) -> Iterator[PairedDifference]:
+    for quantity in pairs[0][0]:
+        values = [(one[quantity], other.get(quantity, math.nan)) for one, other in pairs]
+        known = [pair for pair in values if all(map(math.isfinite, pair))]
+        if len(known) >= FEWEST_PAIRS:
+            yield _difference(quantity, known, len(values) - len(known))
+
+
+def _difference(quantity: str, values: Sequence[tuple[float, float]], missing: int) -> PairedDifference:
+    differences = [second - first for first, second in values]
+    first, second = (median(side) for side in zip(*values, strict=True))
+    mean = mean_of(differences, CONFIDENCE)
+    return PairedDifference(
+        quantity,
+        quantity_unit(quantity),
+        first,
+        second,
+        # Student's t of differences that are all alike would feign certainty.
+        mean if mean.smallest < mean.largest else dataclasses.replace(mean, low=math.nan, high=math.nan),
+        median_of(differences, CONFIDENCE),
+        sum(each > 0.0 for each in differences),
+        sum(each < 0.0 for each in differences),
+        missing,
+    )
+
+
+def _why_too_few(first: Stops, second: Stops, common: int) -> str:
+    for side, stops in (("first", first), ("second", second)):
+        if not stops:
+            return f"no stop of the {side} side has measures"
+        if not any(draw.noise_key for draw in stops):
+            return f"the noise of the {side} side is not known: its stops are recorded"
+    met = ({(draw.conditions, draw.noise_key) for draw in stops} for stops in (first, second))
+    if not set.intersection(*met):
+        return (
+            "the stops met other noise: initial speed, pressure, wheel load, a wheelset's radius, brake force"
+            " or pads, or the friction of the rail differ"
+        )
+    seeds = [_seeds_text(stops) for stops in (first, second)]
+    if not common:
+        return f"no seed is on both sides: {seeds[0]}; {seeds[1]}"
+    return f"{common} pair, {FEWEST_PAIRS} are needed: {seeds[0]}; {seeds[1]}"
+
+
+def _seeds_text(stops: Stops) -> str:
+    seeds = {draw.seed for draw in stops if draw.seed is not None}
+    return evaluation.seeds_text(sorted(seeds)) if seeds else "no known seed"
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One side of a comparison: a run, or one variant in it."""
+
+    name: str
+    cases: Sequence[CaseResult]
+    series: Sequence[SeriesResult] = ()
+
+
+class GroupKey(NamedTuple):
+    """What the stops of one group have in common; `speed_kmh` is None for cases, `rail` as in a series."""
+
+    name: str
+    parameters: frozenset[tuple[str, str]]
+    speed_kmh: float | None = None
+    rail: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """The stops of a group; `name` is for readers."""
+
+    name: str
+    stops: dict[Draw, Figures] = field(default_factory=dict)
+
+
+def groups_of(side: Side, varied: Collection[str]) -> dict[GroupKey, Group]:
+    """Return the groups of a side; `varied` are the keys in which the variants differ.
+
+    Cases that differ in nothing but these and their seed are one group, and so are the wet stops of a series
+    from one speed that count.
+    """
+    groups: dict[GroupKey, Group] = {}
+    for case in side.cases:
+        key = _key(case, {*varied, "seed"})
+        groups.setdefault(key, Group(_name(case, key))).stops.update(drawn_stops(case))
+    for series in side.series:
+        key = _key(series, varied)
+        for speed in series.speeds:
+            name = f"{_name(series, key)}, wet stops from {speed.place}"
+            place = key._replace(speed_kmh=speed.speed_kmh, rail=speed.rail)
+            groups[place] = Group(name, _wet_stops(series, speed))
+    return groups
+
+
+def _wet_stops(series: SeriesResult, speed: SpeedResult) -> dict[Draw, Figures]:
+    """Return the wet stops from a speed, and on its rail, that count."""
+    not_counted = {(stop.case, stop.seed) for stop in series.not_counted}
+    return {
+        draw: figures
+        for each in series.cases
+        if (each.role, each.speed_kmh) == ("wet", speed.speed_kmh) and speed.rail in ("", each.rail)
+        for draw, figures in drawn_stops(each.case, each.case.id.removeprefix(f"{series.id}."))
+        # A stop that is not repeated stands there without its seed.
+        if not_counted.isdisjoint({(each.case.id, draw.seed), (each.case.id, None)})
+    }
+
+
+def _key(item: CaseResult | SeriesResult, left_out: Collection[str]) -> GroupKey:
+    kept = ((key, value) for key, value in item.parameters.items() if key not in left_out)
+    return GroupKey(item.id.partition("[")[0], frozenset(kept))
+
+
+def _name(item: CaseResult | SeriesResult, key: GroupKey) -> str:
+    """Return the id with the values alone that the whole group has."""
+    shown = [f"{name}={value}" for name, value in item.parameters.items() if (name, value) in key.parameters]
+    return f"{key.name}[{','.join(shown)}]" if shown else key.name
+
+
+@dataclass(frozen=True, slots=True)
+class NotPaired:
+    """A group whose stops do not pair, and why."""
+
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class PairedComparison:
+    """All paired differences of the second side from the first."""
+
+    first: str
+    second: str
+    groups: tuple[PairedGroup, ...]
+    not_paired: tuple[NotPaired, ...] = ()
+
+
+def compare_paired_runs(first: RunContent, second: RunContent) -> PairedComparison:
+    """Return the paired differences of two runs."""
+    ours, theirs = (Side(run.name, run.results, run.series) for run in (first, second))
+    return compare_sides(ours, theirs)
+
+
+def compare_sides(first: Side, second: Side, varied: Collection[str] = ()) -> PairedComparison:
+    """Return the differences of the groups that both sides have, under the noise that both met.
+
+    `varied` are the keys in which the sides differ. A group with one stop on each side is left out: it has no
+    interval.
+    """
+    ours, theirs = (groups_of(side, varied) for side in (first, second))
+    groups: list[PairedGroup] = []
+    not_paired = [*_only(first.name, ours, theirs), *_only(second.name, theirs, ours)]
+    for key, group in ours.items():
+        stops = group.stops, theirs[key].stops if key in theirs else {}
+        if key not in theirs or max(map(len, stops)) < FEWEST_PAIRS:
+            continue
+        try:
+            groups.append(paired_group(group.name, *stops))
+        except ValueError as error:
+            not_paired.append(NotPaired(group.name, str(error)))
+    return PairedComparison(first.name, second.name, tuple(groups), tuple(not_paired))
+
+
+def _only(
+    side: str, groups: Mapping[GroupKey, Group], others: Mapping[GroupKey, Group]
+) -> Iterator[NotPaired]:
+    """Yield the groups that this side alone has."""
+    for key, group in groups.items():
+        if key not in others and len(group.stops) >= FEWEST_PAIRS:
+            yield NotPaired(group.name, f"only {side} has it")
+
+
+def paired_form(compared: PairedComparison) -> dict[str, Any]:
+    """Return the JSON form; what has no number is null."""
+    form: dict[str, Any] = json_form(dataclasses.asdict(compared))
+    for group, of_group in zip(compared.groups, form["groups"], strict=True):
+        for each, of_difference in zip(group.differences, of_group["differences"], strict=True):
+            of_difference["pairs"] = each.pairs
+    return form
+
+
+def variants_json(run: str, compared: Sequence[PairedComparison]) -> str:
+    """Return the variants of a run as a JSON document."""
+    form = {
+        **envelope.head(envelope.RESULT, "variants"),
+        "run": run,
+        "variants": [paired_form(each) for each in compared],
+    }
+    return json.dumps(form, indent=2, allow_nan=False)
+
+
+Variant = tuple[tuple[str, str], ...]
+"""Keys and values, as written."""
+
+
+def compare_variants(run: RunContent, keys: Sequence[str]) -> list[PairedComparison]:
+    """Return the differences of every variant of a run from the first one, as the keys tell them apart.
+
+    Cases and series without any of the keys are left out. Raises ValueError where there are no two variants,
+    for a key that none of them has and for one that is given twice.
+    """
+    parameters: list[Mapping[str, str]] = [case.parameters for case in run.results]
+    parameters += [series.parameters for series in run.series]
+    known = list(dict.fromkeys(key for of_item in parameters for key in of_item))
+    for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f"{key!r} is given {keys.count(key)} times; give every key once")
+        if key not in known:
+            guess = nearest(key, known)
+            hint = f"did you mean {guess!r}? " if guess else ""
+            listed = ", ".join(known) or "nothing"
+            raise ValueError(f"no case or series has a value of {key!r}; {hint}they differ in: {listed}")
+    variants = list(dict.fromkeys(variant for each in parameters if (variant := _variant(each, keys))))
+    if len(variants) < 2:
+        raise ValueError(f"there is one variant only, {_variant_name(variants[0])}")
+    first, *others = (_side_of_variant(run, variant, keys) for variant in variants)
+    return [compare_sides(first, other, keys) for other in others]
+
+
+def _variant(parameters: Mapping[str, str], keys: Sequence[str]) -> Variant:
+    return tuple((key, parameters[key]) for key in keys if key in parameters)
+
+
+def _side_of_variant(run: RunContent, variant: Variant, keys: Sequence[str]) -> Side:
+    return Side(
+        _variant_name(variant),
+        [case for case in run.results if _variant(case.parameters, keys) == variant],
+        [series for series in run.series if _variant(series.parameters, keys) == variant],
+    )
+
+
+def _variant_name(variant: Variant) -> str:
+    return ", ".join(f"{key}={value}" for key, value in variant)

@@ -1,1 +1,0 @@
-"""One module for each law of the rail, with its `LAW`."""

@@ -1,0 +1,185 @@
+"""Documents as text for a terminal: names are kept whole, columns that find no room are left out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
+from typing import Final
+
+from uictest.core.document import Document, Lines, Table, Tone
+from uictest.report.words import printable
+
+GAP: Final = "  "
+"""What stands between two columns."""
+_PIECE: Final = re.compile(r"\[?[^\[\s,/_=-]*[\s,/_=-]*")
+"""A part of a name that is not broken: lines end before an opening bracket and behind what joins words."""
+_COLOURS: Final[dict[Tone, str]] = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
+_END: Final = "\x1b[0m"
+
+
+def coloured_text(text: str, tone: Tone | None) -> str:
+    """Return a text in the colour of a tone."""
+    return text if tone is None else f"{_COLOURS[tone]}{text}{_END}"
+
+
+def document_lines(document: Document, width: int | None) -> Iterator[str]:
+    """Yield the sections in so many characters, None for a stream that is no terminal."""
+    for section in document.sections:
+        if isinstance(section, Lines):
+            yield from map(printable, section.sentences)
+        elif section.rows:
+            yield from table_lines(section, width)
+
+
+def titled_lines(sections: Iterable[Table | Lines], width: int | None) -> Iterator[str]:
+    """Yield sections under their titles, a blank line behind each."""
+    for section in sections:
+        if isinstance(section, Lines) and section.sentences:
+            yield from map(printable, section.sentences)
+        elif isinstance(section, Table) and section.rows:
+            yield printable(": ".join(filter(None, (section.title, section.basis))))
+            yield from (f"  {line}" for line in table_lines(section, None if width is None else width - 2))
+        else:
+            continue
+        yield ""
+
+
+def table_lines(table: Table, width: int | None, *, coloured: bool = False) -> Iterator[str]:
+    """Yield the lines of a table; the last one names the columns left out and where they are."""
+    columns = _text_columns(table, coloured=coloured)
+    common = table.grouped_by
+    hidden: dict[str, None] = {}
+    if width is None or common is None or _width(columns) <= width:
+        shown, left_out = _fitted(columns, width)
+        yield from _aligned(shown)
+        hidden.update(dict.fromkeys(left_out))
+    else:
+        others = [column for column in table.columns if column is not common]
+        for text, rows in groupby(table.rows, key=common.cell_text):
+            group = _text_columns(replace(table, columns=others, rows=list(rows)), coloured=coloured)
+            shown, left_out = _fitted(group, width)
+            yield from wrapped_name(printable(text), width) if text else ()
+            yield from _aligned(shown)
+            hidden.update(dict.fromkeys(left_out))
+    if hidden:
+        yield f"not shown for lack of room: {', '.join(hidden)}; {table.more} has all"
+
+
+def aligned_rows(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of rows of texts; every column has the same width in all rows."""
+    return _aligned([_TextColumn("", list(cells)) for cells in zip(*rows, strict=True)])
+
+
+def wrapped_name(name: str, width: int) -> list[str]:
+    """Return a name in lines of at most so many characters; a word is broken only where it is longer."""
+    lines = [""]
+    for piece in filter(None, _PIECE.findall(name)):
+        if lines[-1] and len(f"{lines[-1]}{piece}".rstrip()) > width:
+            lines.append("")
+        lines[-1] += piece
+        while len(lines[-1].rstrip()) > width:
+            lines[-1:] = [lines[-1][:width], lines[-1][width:]]
+    return [line.rstrip() for line in lines]
+
+
+@dataclass(frozen=True, slots=True)
+class _TextColumn:
+    """A column with its texts, in several lines where there is a line feed; without a title it has none."""
+
+    title: str
+    texts: Sequence[str]
+    rank: int = 0
+    is_number: bool = False
+    wraps: bool = False
+    tones: Sequence[Tone | None] = ()
+
+    @property
+    def width(self) -> int:
+        return max(len(line) for text in (self.title, *self.texts) for line in text.split("\n"))
+
+    @property
+    def longest_piece(self) -> int:
+        """The least width in which no word of a text or the title is broken."""
+        pieces = (piece for text in self.texts for piece in _PIECE.findall(text))
+        return max(*(len(piece.rstrip()) for piece in pieces), *map(len, self.title.split("\n")))
+
+    def cells(self) -> Iterator[list[str]]:
+        """Yield the lines of every cell in the width of the column, the title first if there is one."""
+        width, tones = self.width, self.tones or [None] * len(self.texts)
+        align = str.rjust if self.is_number else str.ljust
+        if self.title:
+            yield [align(line, width) for line in self.title.split("\n")]
+        for text, tone in zip(self.texts, tones, strict=True):
+            yield [coloured_text(align(line, width), tone) for line in text.split("\n")]
+
+
+def _text_columns(table: Table, *, coloured: bool) -> list[_TextColumn]:
+    return [
+        _TextColumn(
+            column.title,
+            list(map(printable, texts)),
+            column.rank,
+            column.is_number,
+            column.wraps,
+            list(map(column.tone, table.rows)) if coloured and column.tone else (),
+        )
+        for column, texts in table.for_people
+    ]
+
+
+def _width(columns: Sequence[_TextColumn]) -> int:
+    return sum(column.width for column in columns) + len(GAP) * (len(columns) - 1)
+
+
+def _aligned(columns: Sequence[_TextColumn]) -> Iterator[str]:
+    """Yield the lines of columns side by side; shorter cells end in blank lines."""
+    blanks = [" " * column.width for column in columns]
+    for row in zip(*(column.cells() for column in columns), strict=True):
+        for line in range(max(map(len, row))):
+            parts = [
+                cell[line] if line < len(cell) else blank for cell, blank in zip(row, blanks, strict=True)
+            ]
+            yield GAP.join(parts).rstrip()
+
+
+def _fitted(columns: Sequence[_TextColumn], width: int | None) -> tuple[list[_TextColumn], list[str]]:
+    """Return the columns as they fit into so many characters, and the names of those left out.
+
+    Columns are left out until every text that wraps has its whole length, or half of the width shared with
+    the others. Texts that are still longer are wrapped.
+    """
+    if width is None:
+        return list(columns), []
+    remaining, left_out = list(columns), set[str]()
+    for column in sorted(columns, key=lambda column: -column.rank):
+        if column.rank == 0 or _least_width(remaining, width) <= width:
+            break
+        remaining.remove(column)
+        left_out.add(column.title)
+    return _wrapped(remaining, width), [
+        column.title.partition("\n")[0] for column in columns if column.title in left_out
+    ]
+
+
+def _least_width(columns: Sequence[_TextColumn], width: int) -> int:
+    """Return how much room columns need if texts that wrap take at least their share of half the width."""
+    share = width // 2 // max(sum(column.wraps for column in columns), 1)
+    widths = [
+        min(column.width, max(share, column.longest_piece)) if column.wraps else column.width
+        for column in columns
+    ]
+    return sum(widths) + len(GAP) * (len(columns) - 1)
+
+
+def _wrapped(columns: Sequence[_TextColumn], width: int) -> list[_TextColumn]:
+    """Return the columns with texts wrapped where there is no room for all of them."""
+    fixed = sum(column.width for column in columns if not column.wraps) + len(GAP) * (len(columns) - 1)
+    wrapping = sorted((column for column in columns if column.wraps), key=lambda column: column.width)
+    room, texts = max(width - fixed, len(wrapping)), dict[str, list[str]]()
+    for number, column in enumerate(wrapping):
+        own_width = max(min(column.width, room // (len(wrapping) - number)), 1)
+        room -= own_width
+        texts[column.title] = ["\n".join(wrapped_name(text, own_width)) for text in column.texts]
+    return [replace(column, texts=texts[column.title]) if column.wraps else column for column in columns]

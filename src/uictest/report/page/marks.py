@@ -1,0 +1,244 @@
+"""Criteria as they are drawn into the plots: limits, and the instants and intervals that decided them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Final, Literal, NamedTuple
+
+from uictest.core.measures import MEASURES, ShownWhen
+from uictest.core.units import SIZES, in_unit
+from uictest.judging import evaluation
+from uictest.report.traces.moments import TRAIN, Moments, duration
+from uictest.report.traces.quantities import PANELS, STRIPS
+from uictest.report.traces.trace import PlotTrace
+from uictest.report.verdict_sentences import failing_first, limits, value_and_limits
+from uictest.report.words import number, printable, quantity
+
+_UNITS: Final = {panel.key: panel.unit for panel in PANELS}
+_STRIPS: Final = [strip.key for strip in STRIPS]
+
+Kind = Literal["limit", "mean", "window", "band", "tolerance", "instant", "point", "interval", "fault"]
+Along = Literal["time", "distance"]
+
+
+class Mark(NamedTuple):
+    """A mark in a plot, in the units of the plot.
+
+    limit, mean: a level line at `y` from `x0` to `x1`. window, band, fault: everything between `x0` and `x1`.
+    None where it has no end. tolerance: everything from -`y` to `y`. instant: an upright line at `x0`.
+    point: the place `x0`, `y`. interval: from `x0` to `x1` in row `y` of a strip. `wheelset` is None for a
+    mark of all of them, or of the train. `along` is what `x0` and `x1` count: time, s, or distance, m.
+    """
+
+    plot: str
+    kind: Kind
+    label: str
+    x0: float | None = None
+    x1: float | None = None
+    y: float | None = None
+    wheelset: int | None = None
+    criterion: str = ""
+    status: evaluation.Status = "pass"
+    along: Along = "time"
+
+
+def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[Mark]:
+    """Return the marks of every criterion that applied to a stop, those of failing ones first."""
+    marks = []
+    for verdict in failing_first(verdicts):
+        decided = _decided(verdict)
+        if decided is None or verdict.status == "not_applicable":
+            continue
+        for mark in _marks(verdict, decided, trace):
+            label = printable(mark.label)
+            if label and verdict.status == "inconclusive":
+                label += " (inconclusive)"  # in words, not by its colour alone
+            # A wheelset keeps what another one misses.
+            keeps = mark.wheelset is not None and verdict.missed_by and mark.wheelset not in verdict.missed_by
+            status = "pass" if keeps and verdict.status == "fail" else verdict.status
+            marks.append(mark._replace(criterion=verdict.id, status=status, label=label))
+    return marks
+
+
+def fault_marks(trace: PlotTrace) -> Iterator[Mark]:
+    """Yield the stretches in which faults were active, in every plot; the first one names them."""
+    for fault in trace.faults:
+        for index, plot in enumerate([*_UNITS, *_STRIPS]):
+            yield Mark(plot, "fault", "" if index else f"fault: {fault.label}", fault.start, fault.end)
+
+
+def _decided(verdict: evaluation.Verdict) -> ShownWhen | None:
+    measure = MEASURES.get(verdict.measure)
+    return None if measure is None else measure.decided
+
+
+def _marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotTrace) -> Iterator[Mark]:
+    moments = trace.moments.get(verdict.id, Moments())
+    if decided.across:
+        yield from _band(verdict, decided)
+    elif decided.how == "end":
+        if verdict.status != "pass":
+            label = value_and_limits(verdict)
+            if decided.word:
+                speed = trace.curves.get("speed")
+                label = f"{decided.word} {'an unknown speed' if speed is None else f'{speed.y[-1]:.3g} km/h'}"
+            yield Mark(decided.plot, "instant", f"{verdict.id}: {label}", trace.end, trace.end)
+    elif decided.how == "span":
+        yield from _span(verdict, decided, moments)
+    elif decided.how == "extreme":
+        yield from _extremes(verdict, decided, moments)
+    elif verdict.status != "pass" or decided.how != "outer":
+        yield from _intervals(verdict, decided, moments)
+
+
+def _band(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
+    """Yield what lies within the bounds of a distance or a time and, unless it passed, what was reached."""
+    along: Along = "distance" if decided.along_distance else "time"
+    label = f"{verdict.id}: {limits(verdict, word='')}"
+    yield Mark(decided.across, "band", label, verdict.lower, verdict.upper, along=along)
+    if (value := verdict.value) is not None and verdict.status != "pass":
+        yield Mark(decided.across, "instant", quantity(value, verdict.unit), value, value, along=along)
+
+
+def _span(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
+    """Yield a mean with its bounds over its span; of another value, unless it passed, the span alone."""
+    start, end = moments.span or (None, None)
+    if (decided.span or decided.down_to) and (start is None or end is None):
+        return
+    if not decided.level:
+        if verdict.status != "pass":
+            label = f"{verdict.id}: {value_and_limits(verdict)}"
+            yield Mark(decided.plot, "window", label, start, end)
+        return
+    if start is not None and end is not None:
+        yield Mark("speed", "window", f"{decided.span_name}, {number(end - start)} s", start, end)
+        yield Mark(decided.plot, "window", "", start, end)
+    yield from _limits(verdict, decided.plot, start, end)
+    if verdict.value is not None:
+        label = f"{decided.word} {quantity(verdict.value, verdict.unit)}"
+        yield Mark(decided.plot, "mean", label, start, end, verdict.value / _scale(verdict, decided.plot))
+
+
+def _extremes(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
+    """Yield the bounds, and the extreme of the train or, unless it passed, of each wheelset."""
+    plot = decided.plot
+    if decided.level:
+        yield from _limits(verdict, plot, None, moments.span[1] if moments.span else None)
+    for n, (time, height) in moments.extremes.items():
+        if n == TRAIN and verdict.value is not None:
+            y = verdict.value / _scale(verdict, plot) if decided.level else height
+            label = f"{decided.word} {quantity(verdict.value, verdict.unit)}".lstrip()
+            yield Mark(plot, "point", label, time, time, y)
+        elif n != TRAIN and verdict.status != "pass":
+            label = f"{n}: {quantity(height, verdict.unit)}" if _misses(verdict, height) else ""
+            yield Mark(plot, "point", label, time, time, height, n)
+
+
+def _misses(verdict: evaluation.Verdict, value: float) -> bool:
+    """Return whether a value, in the unit of the criterion, misses its bounds.
+
+    A criterion that fails with a margin of 0 is one whose bounds themselves do not pass.
+    """
+    strict = verdict.status == "fail" and verdict.margin == 0.0
+    margins = []
+    if verdict.lower is not None:
+        margins.append(value - verdict.lower)
+    if verdict.upper is not None:
+        margins.append(verdict.upper - value)
+    return any(margin < 0.0 or (strict and margin == 0.0) for margin in margins)
+
+
+def _intervals(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
+    """Yield intervals in a strip; the longest of the wheelset that decides carries a value that did not pass.
+
+    A panel has no room for more than the longest.
+    """
+    intervals = [
+        (last - first, first, last, n) for n, spans in moments.intervals.items() for first, last in spans
+    ]
+    of_deciding = [interval for interval in intervals if moments.wheelset in (None, interval[3])]
+    longest = max(of_deciding, default=None)
+    label = "" if verdict.status == "pass" else f"{verdict.id}: {value_and_limits(verdict)}"
+    if label and (moving_speed := verdict.defined("moving_speed")) is not None:
+        label += f", above {quantity(in_unit(moving_speed, 'km/h'), 'km/h')}"
+    for interval in intervals:
+        _, first, last, n = interval
+        own_label = label if interval == longest else ""
+        if decided.plot in _STRIPS:
+            yield Mark(decided.plot, "interval", own_label, first, last, float(n), n)
+        elif own_label:
+            yield Mark(decided.plot, "window", own_label, first, last)
+
+
+def _limits(verdict: evaluation.Verdict, plot: str, start: float | None, end: float | None) -> Iterator[Mark]:
+    """Yield the bounds of a criterion as level lines."""
+    for bound in (verdict.lower, verdict.upper):
+        if bound is not None and math.isfinite(bound):
+            label = f"limit {quantity(bound, verdict.unit)}"
+            yield Mark(plot, "limit", label, start, end, bound / _scale(verdict, plot))
+
+
+def _scale(verdict: evaluation.Verdict, plot: str) -> float:
+    """Return how many units of the criterion one unit of the plot is."""
+    return SIZES.get(_UNITS[plot], 1.0) / SIZES.get(verdict.unit, 1.0)
+
+
+class Taken(NamedTuple):
+    """From `start` to `end`, s since the brake command, in the plot `plot`; one instant where both are equal.
+
+    `wheelset` is the one that decides; None for a measure of the train. `value` is the height of the instant
+    in the unit of the plot, None where there is none. `begun` is the time of the first sample that shows it,
+    None for `start`: the first that counts as locked or sliding counts from the sample before it on.
+    """
+
+    plot: str
+    start: float
+    end: float
+    wheelset: int | None = None
+    value: float | None = None
+    begun: float | None = None
+
+    @property
+    def seen(self) -> float:
+        """The time at which a cursor shows it."""
+        return self.start if self.begun is None else self.begun
+
+    @property
+    def text(self) -> str:
+        """The instant or the stretch of time, and the wheelset."""
+        return self.times + (f", wheelset {self.wheelset}" if self.wheelset else "")
+
+    @property
+    def times(self) -> str:
+        """The instant or the stretch of time."""
+        return f"{self.start:.4g} s" if self.start == self.end else f"{self.start:.4g} to {self.end:.4g} s"
+
+
+def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
+    """Return where the value of a criterion was taken; None where the plots show no such place."""
+    decided, moments = _decided(verdict), trace.moments.get(verdict.id, Moments())
+    if decided is None or verdict.value is None:
+        return None
+    if decided.how == "end":
+        return Taken(decided.plot, trace.end, trace.end)
+    if decided.how == "span":
+        of_part = decided.span is not None or decided.down_to
+        span = moments.span if of_part else (trace.start, trace.end)
+        return None if span is None else Taken(decided.plot, *span)
+    n = moments.wheelset
+    if decided.how == "extreme":
+        if (TRAIN if n is None else n) not in moments.extremes:
+            return None
+        time, height = moments.extremes[TRAIN if n is None else n]
+        return Taken(decided.plot, time, time, n, height)
+    if n is None and MEASURES[verdict.measure].of_wheelsets:
+        return None
+    intervals = [span for k, spans in moments.intervals.items() if n in (None, k) for span in spans]
+    if not intervals:
+        return None
+    first, last = max(intervals, key=duration)
+    if decided.how != "longest":
+        first, last = min(intervals)[0], max(last for _, last in intervals)
+    begun = None if decided.how == "outer" else first + trace.interval
+    return Taken(decided.plot, first, last, n, begun=begun)

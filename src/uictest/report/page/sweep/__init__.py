@@ -1,1 +1,0 @@
-"""The part of a page that shows a sweep."""

@@ -1,1 +1,0 @@
-"""Results on a terminal: a table where a person reads, lines elsewhere."""

@@ -1,0 +1,160 @@
+"""What a run shows while it runs and at its end: progress, a table on a terminal, and its exit code."""
+
+import io
+import threading
+from contextlib import redirect_stdout
+from pathlib import Path
+
+import pytest
+
+from uictest import report
+from uictest.cli import progress as progress_module
+from uictest.cli.options import Format
+from uictest.cli.output import ExitCode, interactive, of_run
+from uictest.cli.progress import progress
+from uictest.cli.run_display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
+from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
+from uictest.report import RunContent
+from uictest.runs import Published
+
+from .conftest import HANGING
+
+MET = CaseResult("[bold]a", "a.yaml", {}, PASS, "pass")
+MISSED = CaseResult("b", "b.yaml", {}, PASS, "fail", reason="locked")
+
+
+def run_of(*outcomes, interrupted=False):
+    content = RunContent("run", [CaseResult(outcome, "a.yaml", {}, PASS, outcome) for outcome in outcomes])
+    return Published(Path("run"), content, report.publication_of_run(content), interrupted)
+
+
+@pytest.mark.parametrize(
+    ("run", "code"),
+    [
+        (run_of("pass", "pass"), 0),
+        (run_of("pass", "skipped"), 1),
+        (run_of("pass", "fail"), 1),
+        (run_of("invalid"), 1),
+        (run_of("fail", "error"), 3),
+        (run_of("fail", "error", interrupted=True), 2),
+        (run_of(interrupted=True), 2),
+    ],
+)
+def test_what_outweighs_what_in_an_exit_code(run, code):
+    assert of_run(run) == code
+
+
+def test_the_codes_are_those_that_the_documentation_promises():
+    codes = "MET 0, MISSED 1, INTERRUPTED 2, ERROR 3, USAGE 4, NOTHING_SELECTED 5"
+    assert ", ".join(f"{code.name} {code:d}" for code in ExitCode) == codes
+
+
+class Terminal(io.StringIO):
+    """A stream that is a terminal."""
+
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize(
+    ("stream", "shown", "display"),
+    [
+        (Terminal, Format.TEXT, VerdictTable),
+        (Terminal, Format.JSON, ResultsDocument),
+        (Terminal, Format.GITHUB, Annotations),
+        (io.StringIO, Format.TEXT, Lines),
+    ],
+)
+def test_text_is_a_table_on_a_terminal_and_lines_elsewhere(stream, shown, display):
+    with redirect_stdout(stream()):
+        assert type(chosen_display(shown, quiet=False, verbose=False)) is display
+
+
+@pytest.mark.parametrize(("ci", "watched"), [("true", False), ("1", False), ("", True), ("false", True)])
+def test_on_a_ci_service_nobody_watches(monkeypatch, ci, watched):
+    monkeypatch.setenv("CI", ci)
+    assert interactive(Terminal()) is watched
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """Return what a terminal shows of a met and a missed case, with variables of the environment."""
+
+    def show(quiet=False, **variables):
+        for name, value in {"COLUMNS": "120", **variables}.items():
+            monkeypatch.setenv(name, value)
+        with redirect_stdout(Terminal()) as terminal:
+            display = chosen_display(Format.TEXT, quiet=quiet, verbose=False)
+            for result in (MET, MISSED):
+                display.show(result, ())
+            display.end(RunContent("run", [MET, MISSED]), "{}")
+        return terminal.getvalue()
+
+    return show
+
+
+def test_the_table_explains_what_is_not_met_and_a_quiet_one_holds_nothing_else(shown):
+    text = shown(NO_COLOR="1")
+    assert "[bold]a" in text
+    assert "fail b\n  fail. Expected: pass\n  locked\n" in text
+    assert "[bold]a" not in shown(quiet=True)
+
+
+def test_the_table_is_as_wide_as_columns_says(shown):
+    assert max(map(len, shown(COLUMNS="100", NO_COLOR="1").splitlines())) <= 100
+
+
+@pytest.mark.parametrize("unwanted", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
+def test_colour_on_a_terminal_until_it_is_unwanted(shown, unwanted):
+    assert "\x1b[" in shown()
+    assert "\x1b" not in shown(**unwanted)
+
+
+@pytest.fixture
+def beats(monkeypatch):
+    """Let a sign of life come at once and again; returns the lines, and what waits for one with a text."""
+    lines, written = [], threading.Condition()
+
+    def write(text):
+        with written:
+            lines.append(text)
+            written.notify_all()
+
+    def wait_for(text):
+        with written:
+            assert written.wait_for(lambda: any(text in line for line in lines), HANGING)
+
+    monkeypatch.setattr(progress_module, "HEARTBEAT", 0.001)
+    monkeypatch.setattr(progress_module, "message", write)
+    return lines, wait_for
+
+
+def heartbeats():
+    return [thread for thread in threading.enumerate() if thread.name == "heartbeat"]
+
+
+def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(beats):
+    _, wait_for = beats
+    with progress(1000, 100, quiet=False, unit="stops") as advance:
+        wait_for("uictest: 100 of 1000 stops after ")
+        advance(1)
+        wait_for("101 of 1000 stops after")
+        wait_for(" s left")
+    assert heartbeats() == []
+
+
+def test_a_total_that_grows_is_not_said_to_be_finished(beats):
+    lines, wait_for = beats
+    with progress(7, quiet=False) as advance:
+        advance(0, 2)
+        advance(7)
+        wait_for(" 7 of 9 cases after")
+    assert not any("7 of 7" in line for line in lines)
+
+
+def test_quiet_is_silent(beats):
+    with progress(7, quiet=True) as advance:
+        advance(1)
+        assert heartbeats() == []
+    assert beats[0] == []

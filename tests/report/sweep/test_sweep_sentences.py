@@ -1,0 +1,218 @@
+"""A sweep in words: counts, swept values, shares, flips, notable cases, and what a CI server is told."""
+
+import shlex
+
+import pytest
+
+from uictest.judging.evaluation import Deviation
+from uictest.report import DrawnInterval, Flip, OutcomeCount, WrittenValue
+from uictest.report.sweep.result import OutsideCount, SurveyBias, SurveyStep, SweepDomain
+from uictest.report.sweep.sweep_sentences import (
+    MOST_ANNOTATED,
+    bar,
+    circumstances_words,
+    command_alone,
+    domain_notes,
+    flip_words,
+    notable_cases,
+    share_words,
+    survey_notes,
+    sweep_annotations,
+    sweep_suite,
+    sweep_tally,
+    swept_words,
+)
+
+from ..builders import HOSTILE, make_result
+from ..sweep_rows import sweep_result
+
+OUTCOMES = {"pass": 70, "fail": 1, "invalid": 0, "error": 1, "skipped": 0, "inconclusive": 3}
+
+
+@pytest.mark.parametrize(
+    ("met", "outcomes", "text"),
+    [
+        (70, OUTCOMES, "75 cases: 70 pass, 1 fail, 1 error, 3 inconclusive; 5 not as expected"),
+        (75, {"pass": 3, "error": 0, "skipped": 72}, "75 cases: 3 pass, 72 skipped"),
+    ],
+)
+def test_a_sweep_is_counted_by_outcome(met, outcomes, text):
+    assert sweep_tally(sweep_result({"a": ["1"]}, 75, met=met, outcomes=outcomes)) == text
+
+
+@pytest.mark.parametrize(
+    ("values", "shown"),
+    [
+        ([WrittenValue("80 %"), WrittenValue("90 %")], "80 %, 90 %"),
+        ([WrittenValue(f"0.{k}") for k in (1, 2, 3, 4)], "0.1 .. 0.4 (4 values)"),
+        ([WrittenValue(f"{k} %") for k in (50, 100, 200, 80)], "50 % .. 200 % (4 values)"),
+        ([WrittenValue(text) for text in "badc"], "b, a, d, … (4 values)"),
+        ([DrawnInterval(0.08, 0.12, "m/s"), DrawnInterval(0.12, 0.16, "m/s")], "0.08 .. 0.16 m/s, drawn"),
+        ([], ""),
+    ],
+)
+def test_what_is_swept_is_described_by_its_ends(values, shown):
+    assert swept_words(values) == shown
+
+
+@pytest.mark.parametrize(
+    ("met", "cases", "share", "blocks"),
+    [(1000, 1000, "100", 10), (999, 1000, "99", 9), (1, 1000, "1", 1), (0, 9, "0", 0), (1, 4, "25", 2)],
+)
+def test_only_what_is_whole_is_shown_as_whole(met, cases, share, blocks):
+    assert share_words(met, cases) == share
+    assert bar(met, cases) == "█" * blocks + "░" * (10 - blocks)
+
+
+def test_no_case_has_no_share():
+    assert (share_words(0, 0), bar(0, 0), OutcomeCount(WrittenValue("1"), 0, 0, {}).share_met) == (
+        "-",
+        "",
+        None,
+    )
+
+
+LOW, HIGH = WrittenValue("0.10"), WrittenValue("0.11")
+
+
+@pytest.mark.parametrize(
+    ("said", "text"),
+    [
+        (flip_words(Flip(LOW, HIGH, met_at_low=True)), "met up to 0.10, not met from 0.11"),
+        (flip_words(Flip(LOW, HIGH, met_at_low=False)), "not met up to 0.10, met from 0.11"),
+        (circumstances_words({"a": WrittenValue("1"), "b": WrittenValue("2 m")}), "a = 1, b = 2 m"),
+        (circumstances_words({}), "all cases"),
+        (command_alone({"file": "-x y.sweep.yaml"}),
+         "uictest sweep './-x y.sweep.yaml' -k 'CASE' -o 'alone/CASE'",),
+        (command_alone({}), "uictest sweep FILE -k 'CASE' -o 'alone/CASE'"),
+    ],
+)  # fmt: skip
+def test_flips_circumstances_and_commands_are_told(said, text):
+    assert said == text
+
+
+def test_one_case_alone_runs_as_in_the_sweep_in_a_folder_of_its_own():
+    words = shlex.split(command_alone({"file": "a b.sweep.yaml", "set": ["brake.command=80 %"], "seed": 3}))
+    assert words[:3] == ["uictest", "sweep", "a b.sweep.yaml"]
+    given = dict(zip(words[3::2], words[4::2], strict=True))
+    assert given == {"--set": "brake.command=80 %", "--seed": "3", "-k": "CASE", "-o": "alone/CASE"}
+
+
+def test_each_notable_case_stands_once_and_those_not_met_in_front(make_sweep):
+    missed = [{"id": name, "outcome": "error", "reason": "no air"} for name in ("a", "b")]
+    worst = (make_result(id="narrow"), make_result(id="a", outcome="error", criteria=(), reason="no air"))
+    cases = notable_cases(make_sweep(worst, missed=missed).result)
+    assert [(case.id, case.word, case.why, case.distance) for case in cases] == [
+        ("a", "error", "error. Expected: pass; no air", 465.25),
+        ("b", "error", "got error: no air", None),
+        ("narrow", "pass", "", 465.25),
+    ]
+    assert (cases[2].margin, cases[2].criterion) == (pytest.approx(100 * 24.75 / 490), "braking-distance")
+    (case,) = notable_cases(make_sweep(missed=[{"id": "a", "outcome": "skipped", "reason": ""}]).result)
+    assert case.why == "got skipped"
+
+
+NONE = dict.fromkeys(("pass", "fail", "invalid", "inconclusive", "error", "skipped"), 0)
+
+
+@pytest.mark.parametrize(
+    ("count", "status", "lines"),
+    [
+        ({"cases": 2, "met": 2, "outcomes": NONE | {"pass": 2}}, "passed", []),
+        ({"cases": 2, "met": 1, "outcomes": NONE | {"pass": 1, "fail": 1}}, "failure",
+         ["1 of 2 cases did not meet their expectation", "pass: 1, fail: 1", "the first of the whole sweep:",
+         "lost[pads]: invalid, pads",]),
+        ({"cases": 2, "met": 1, "outcomes": NONE | {"pass": 1, "error": 1}}, "error", None),
+        ({"cases": 0, "met": 0, "outcomes": NONE}, "skipped", None),
+        ({"cases": 2, "met": 2, "outcomes": NONE | {"skipped": 2}}, "skipped", None),
+        ({"cases": 2, "met": 0, "outcomes": NONE | {"skipped": 2}}, "failure", None),
+    ],
+)  # fmt: skip
+def test_a_value_of_the_first_parameter_is_a_testcase(make_sweep, count, status, lines):
+    content = make_sweep(text="pads", rates={"rail.friction": [{"value": "0.1"} | count], "x": []})
+    (testcase,) = sweep_suite(content.result, content.manifest["file"]).testcases
+    assert (testcase.class_name, testcase.name) == ("scenarios.pads.sweep", "pads[rail.friction=0.1]")
+    assert testcase.status == status
+    assert lines is None or testcase.lines == lines
+
+
+def test_testcases_have_the_ids_of_test_management_where_asked(make_sweep):
+    content = make_sweep(requirements=["BR-1", "BR-2"], test_case="TC-7")
+    plain, named = (sweep_suite(content.result, "a.yaml", with_properties=asked) for asked in (False, True))
+    assert plain.properties == named.properties == {"requirements": "BR-1,BR-2"}
+    assert not any(testcase.properties for testcase in plain.testcases)
+    ids = {"polarion-testcase-id": "TC-7", "test_key": "TC-7", "requirements": "BR-1,BR-2"}
+    assert [testcase.properties for testcase in named.testcases] == [ids, ids]
+
+
+def annotations(content):
+    return list(sweep_annotations(content.result, content.manifest["file"]))
+
+
+def test_cases_that_are_not_met_are_annotated_and_the_sweep_is_counted(make_sweep):
+    missed = make_result(id="b[x]", outcome="fail", criteria=(), reason="locked")
+    tally = "4 cases: 3 pass, 1 fail; 1 not as expected"
+    assert annotations(make_sweep((missed, make_result()), "pads")) == [
+        "::error file=scenarios/pads.sweep.yaml,title=fail b[x]::fail. Expected: pass; locked",
+        "::error file=scenarios/pads.sweep.yaml,title=invalid lost[pads]::got invalid: pads",
+        f"::notice file=scenarios/pads.sweep.yaml,title=uictest sweep pads::{tally}",
+    ]
+    many = annotations(make_sweep(tuple(make_result(id=f"case-{k}", outcome="fail") for k in range(12))))
+    assert sum(line.startswith("::error ") for line in many) == MOST_ANNOTATED
+    assert "title=fail case-0::" in many[0]
+
+
+def test_a_hostile_name_cannot_start_a_command_of_its_own(make_sweep):
+    bad = make_result(id=HOSTILE, parameters={HOSTILE: HOSTILE}, outcome="error", reason=HOSTILE)
+    for line in annotations(make_sweep((bad,), HOSTILE)):
+        assert line.startswith(("::error file=", "::notice file="))
+        assert not set("\n\r\x00\x1b\u202e") & set(line)
+        assert line.split("::")[1].count(",") == 1
+
+
+SPEED = OutsideCount(3, Deviation("initial_speed", (30.0, 40.0), (10.0, 20.0), "m/s"))
+BIASES = (SurveyBias("braking distance", 0.0012, "slip-120", 0.05), SurveyBias("time", 1e-5, "dry", 0.0))
+
+
+@pytest.mark.parametrize(
+    ("notes", "said"),
+    [
+        (domain_notes(None, 5), []),
+        (
+            domain_notes(SweepDomain("my-train", "00", 0), 1),
+            ["0 of 1 case outside of what my-train validated"],
+        ),
+        (
+            domain_notes(SweepDomain("my-train", "00", 3, (SPEED,) * 7), 5),
+            [
+                "3 of 5 cases outside of what my-train validated: "
+                + "; ".join(["initial_speed 144 km/h > 72 km/h in 3"] * 6)
+                + "; 1 more condition in results.json"
+            ],
+        ),
+        (survey_notes(None, 5), []),
+        (
+            survey_notes(SurveyStep("1 ms", "0.5 ms", 0, BIASES, ("energy",)), 5),
+            [
+                "survey in steps of 1 ms, which settled all of 5 cases",
+                "bias of the survey step: not known of energy",
+                (
+                    "bias of the survey step: braking distance at most 0.12 % on average (slip-120),"
+                    " 5 % in 95 % of single stops"
+                ),
+                "bias of the survey step: below 0.01 % in 1 other measure judged or mapped",
+            ],
+        ),
+        (
+            survey_notes(SurveyStep("1 ms", "0.5 ms", 2, ()), 5),
+            [
+                (
+                    "survey in steps of 1 ms, which could not settle 2 of 5 cases:"
+                    " these were repeated in steps of 0.5 ms"
+                )
+            ],
+        ),
+    ],
+)
+def test_what_bounds_a_sweep_is_noted(notes, said):
+    assert list(notes) == said
