@@ -150,7 +150,7 @@ def read_here(name, path, request, seconds=0.0):
     with files.temporary_folder() as folder:
         pieces = isolation.pieces_of(name, path, request)
         isolation._reject_failure(isolation.leave(folder, name, pieces, lambda: True), name, path, folder)
-        contents = isolation._collect(folder)
+        contents = isolation._read_contents(folder)
     yield contents
 
 

@@ -144,9 +144,9 @@ def test_only_fields_of_answers_are_compared():
     """A controller in C that assigns the whole structure leaves anything behind them."""
     one, other = np.zeros((2, 5), OUTPUTS)
     other["padding"] = 7
-    assert len(checks._different(one, other)) == 0
+    assert len(checks._cycles_that_differ(one, other)) == 0
     other["hold"][3, 1] = 1
-    assert checks._different(one, other).tolist() == [3]
+    assert checks._cycles_that_differ(one, other).tolist() == [3]
 
 
 @pytest.mark.usefixtures("here")

@@ -55,7 +55,7 @@ def test_a_speed_that_jumps_up_and_back_is_a_spike(tmp_path, name, samples):
     spiked[600 : 600 + samples] = 300.0
     stop = stop_of(written(tmp_path / "a.csv", columns_of(**{name: spiked})))
     (spike,) = stop.defects
-    assert (spike.kind, spike.spoils) == ("spike", True)
+    assert (spike.kind, spike.makes_unusable) == ("spike", True)
     assert "rises and returns at once, 1 times from 12 to" in spike.text
 
 

@@ -19,7 +19,7 @@ def _channel(name, time, samples):
 @given(RISING, st.lists(st.floats(-5.0, 40.0), min_size=1, max_size=20))
 def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(time, times_asked):
     times = np.sort(times_asked)
-    values = resampled(_channel("speed", time, 3.0 * time + 1.0), times, raster=100.0)
+    values = resampled(_channel("speed", time, 3.0 * time + 1.0), times, grid_interval=100.0)
     inside = (times >= time[0]) & (times <= time[-1])
     assert np.isnan(values[(times < time[0] - 1e-3) | (times > time[-1] + 1e-3)]).all()
     np.testing.assert_allclose(values[inside], 3.0 * times[inside] + 1.0, atol=1e-4)
@@ -36,29 +36,29 @@ def test_states_are_held(time, share):
 
 def test_a_gap_or_a_missing_sample_stays_one_but_for_its_edges():
     time = np.array([0.0, 0.1, 0.2, 0.3, 1.0, 1.1, 1.2])
-    values = resampled(_channel("speed", time, time), np.array([0.3, 0.5, 1.0]), raster=0.1)
+    values = resampled(_channel("speed", time, time), np.array([0.3, 0.5, 1.0]), grid_interval=0.1)
     np.testing.assert_allclose(values, [0.3, np.nan, 1.0])
     channel = _channel("speed", np.arange(4.0), np.array([0.0, np.nan, 2.0, 3.0]))
-    values = resampled(channel, np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5]), raster=1.0)
+    values = resampled(channel, np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5]), grid_interval=1.0)
     np.testing.assert_array_equal(np.isnan(values), [False, True, True, True, False, False])
 
 
 @pytest.mark.parametrize(("lost", "is_a_gap"), [(1, False), (2, True)])
 def test_one_sample_lost_is_no_gap_and_two_are(lost, is_a_gap):
     time = np.delete(0.125 * np.arange(20), range(10, 10 + lost))
-    assert gaps(time, raster=0.125).any() == is_a_gap
-    assert len(list(gap_defects(time, "speed", raster=0.125))) == is_a_gap
+    assert gaps(time, grid_interval=0.125).any() == is_a_gap
+    assert len(list(gap_defects(time, "speed", grid_interval=0.125))) == is_a_gap
 
 
 def test_gaps_are_intervals_of_more_than_two_and_a_half_usual_ones_and_slower_than_the_raster():
     time = np.array([0.0, 1.0, 2.0, 3.0, 5.5, 6.5, 7.5, 10.25])
-    assert list(gaps(time, raster=0.1)) == [False] * 6 + [True]
+    assert list(gaps(time, grid_interval=0.1)) == [False] * 6 + [True]
     # Times of a file are rounded: the raster itself may come out a digit longer.
     time = np.array([0.0, 0.01, 0.02, 0.03, 0.13, 0.14])
-    assert not gaps(time, raster=0.1).any()
-    assert gaps(time, raster=0.09).any()
+    assert not gaps(time, grid_interval=0.1).any()
+    assert gaps(time, grid_interval=0.09).any()
     time = np.concatenate([10.0 * k + np.arange(5.0) for k in range(6)])
-    [defect] = gap_defects(time, "speed", raster=0.1)
+    [defect] = gap_defects(time, "speed", grid_interval=0.1)
     listed = "4 to 10 s, 14 to 20 s, 24 to 30 s and 2 more"
     assert str(defect) == f"gap: speed is not recorded from {listed}"
 

@@ -145,12 +145,12 @@ def test_draws_of_a_random_rail_meet_one_rail_each():
     seeds = []
 
     class Noted(FirmnessRun):
-        def _study(self, cases, numbers, judge, profiles):
+        def _study_stops(self, cases, numbers, judge, profiles):
             def noting(columns, of_stops):
                 seeds.append(list(of_stops))
                 return judge(columns, of_stops)
 
-            return super()._study(cases, numbers, noting, profiles)
+            return super()._study_stops(cases, numbers, noting, profiles)
 
     Noted(1, effort=SMALL).of_case(case)
     assert list(range(8)) in seeds

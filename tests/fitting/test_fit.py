@@ -11,7 +11,13 @@ from uictest.core.recording import TIME, Recording
 from uictest.plans.scenario import load_part
 from uictest.recorded.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
 from uictest.recorded.fitting import FitError, fit_stop
-from uictest.recorded.fitting.balances import Balances, samples_of, wheel_loads, wheelset_creep, windows_of
+from uictest.recorded.fitting.balances import (
+    Balances,
+    samples_of,
+    wheel_loads,
+    wheelset_creep_force,
+    windows_of,
+)
 from uictest.recorded.fitting.fit import in_a_row, stretch_names, stretch_of
 from uictest.rig import simulate
 
@@ -140,7 +146,7 @@ def test_the_creep_law_over_arrays_is_the_rigs_own():
     rail = stated_case("rail", 20.0, ["rail.condition=wet"]).scenario.rail.condition
     slips = np.array([0.0, 0.01, 0.5, 3.0, 15.0])
     full = np.full(5, 1.0)
-    forces = wheelset_creep(slips, 20.0 * full, 5.5e4 * full, 0.1 * full, rail)
+    forces = wheelset_creep_force(slips, 20.0 * full, 5.5e4 * full, 0.1 * full, rail)
     contact = rail.contact
     area = np.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
     reference = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient

@@ -11,7 +11,7 @@ from uictest.selftest import known_stops
 from uictest.selftest.known_stops import data_digests
 
 PACKAGE = Path(uictest.__file__).parent
-STORED = known_stops._stored()["data"]
+STORED = known_stops._stored_reference()["data"]
 CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"
 
 

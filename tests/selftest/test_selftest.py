@@ -76,14 +76,14 @@ def test_a_number_that_is_missing_or_new_is_found():
 
 
 def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(stops, monkeypatch):
-    stored = dict(known_stops._stored()["stops"]["dry-120"]["numbers"])
+    stored = dict(known_stops._stored_reference()["stops"]["dry-120"]["numbers"])
     distance = float(stored["braking_distance"])
     stored["braking_distance"] = repr(float(np.nextafter(distance, 0.0)))
     content = {
         **STORED,
         "stops": {**STORED["stops"], "dry-120": {**STORED["stops"]["dry-120"], "numbers": stored}},
     }
-    monkeypatch.setattr(known_stops, "_stored", lambda: content)
+    monkeypatch.setattr(known_stops, "_stored_reference", lambda: content)
     failed = [each for each in selftest.examine(stops).findings if each.status == "fail"]
     assert [each.id for each in failed] == ["dry-120", "lanes"]
     assert all("1 of " in each.reason and "braking_distance" in each.reason for each in failed)

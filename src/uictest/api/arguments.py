@@ -58,7 +58,7 @@ def sample_interval(argument: str, rate: float) -> float:
 
 
 def recording_request(record: str, rate: float = 100.0) -> campaign.RecordingRequest:
-    """Return which cases to record and how often, from samples per second. Raises ValueError."""
+    """Return the request to record cases, from samples per second. Raises ValueError."""
     accepted = ("failed", "all", "none")
     if record not in accepted:
         raise ValueError(f"record is {record!r}; {suggestion(str(record), accepted)}")
@@ -108,7 +108,7 @@ def override_texts(assignments: Assignments | None, repeat: int | None = None) -
 
     """
     try:
-        texts = [f"{key}={_axis(key, value)}" for key, value in (assignments or {}).items()]
+        texts = [f"{key}={_axis_text(key, value)}" for key, value in (assignments or {}).items()]
     except RecursionError:
         raise ValueError("set: a value is nested too deeply") from None
     if repeat is None:
@@ -118,16 +118,16 @@ def override_texts(assignments: Assignments | None, repeat: int | None = None) -
     return [*texts, f"repeat={int(repeat)}"]
 
 
-def _axis(key: str, value: Any) -> str:
-    listed = _listed(value)
+def _axis_text(key: str, value: Any) -> str:
+    listed = _value_list(value)
     if listed is None:
         # A text is taken as it would stand on the command line: `a,b` and `range(...)` are axes.
-        return value if isinstance(value, str) else _flow(key, value)
-    items = (_quoted(item) if isinstance(item, str) else _flow(key, item) for item in listed)
+        return value if isinstance(value, str) else _flow_text(key, value)
+    items = (_quoted_text(item) if isinstance(item, str) else _flow_text(key, item) for item in listed)
     return ",".join(items)
 
 
-def _listed(value: Any) -> Sequence[Any] | None:
+def _value_list(value: Any) -> Sequence[Any] | None:
     """Return a list, a tuple, a range, an array or a column as a list; None for anything else."""
     if isinstance(value, list | tuple | range):
         return value
@@ -135,13 +135,13 @@ def _listed(value: Any) -> Sequence[Any] | None:
     return items if isinstance(items, list) else None
 
 
-def _quoted(text: str) -> str:
+def _quoted_text(text: str) -> str:
     """Return a text as one value of an axis, in quotes where a comma in it would divide it."""
     divided = "," in text and not text.lstrip().startswith(_ENCLOSED)
     return json.dumps(text, ensure_ascii=False) if divided else text
 
 
-def _flow(key: str, value: Any) -> str:
+def _flow_text(key: str, value: Any) -> str:
     """Return a value in YAML on one line. Raises TypeError, ValueError."""
     if value is None or isinstance(value, bool):
         return {None: "null", True: "true", False: "false"}[value]
@@ -156,10 +156,10 @@ def _flow(key: str, value: Any) -> str:
     if isinstance(value, PathLike):
         return Path(fspath(value)).as_posix()
     if isinstance(value, Mapping):
-        items = ", ".join(f"{_flow(key, name)}: {_flow(key, item)}" for name, item in value.items())
+        items = ", ".join(f"{_flow_text(key, name)}: {_flow_text(key, item)}" for name, item in value.items())
         return f"{{{items}}}"
-    if (listed := _listed(value)) is not None:
-        return f"[{', '.join(_flow(key, item) for item in listed)}]"
+    if (listed := _value_list(value)) is not None:
+        return f"[{', '.join(_flow_text(key, item) for item in listed)}]"
     if hasattr(value, "item"):
-        return _flow(key, value.item())
+        return _flow_text(key, value.item())
     raise TypeError(f"set: {key} is a {type(value).__name__}; write a text, a number or a list of them")

@@ -36,7 +36,7 @@ def load(
         paths: scenario files or folders [default: `scenarios`]; series in folders are left out.
         set: dotted key -> value in every scenario: a text as in a file (`90 %`), a number where a key is a
             pure number, or a list of them, which becomes an axis.
-        seed: of sensor noise and random rails in every case, 0 to 2^32 - 1.
+        seed: seed of sensor noise and random rails in every case, 0 to 2^32 - 1.
         select: expression over ids, file names and tags, as `-k`.
         tag: expression over tags, as `-m`.
         trust: folders that scenarios may refer to, besides their own and the working folder.
@@ -86,7 +86,7 @@ def simulate(
         what: scenario file, or a case from :func:`uictest.load`.
         case: id of the case, where the file has several.
         set: dotted key -> value, as for :func:`uictest.load`; for files.
-        seed: of sensor noise and random rails, 0 to 2^32 - 1 [default: the scenario's].
+        seed: seed of sensor noise and random rails, 0 to 2^32 - 1 [default: the scenario's].
         trust: folders that the scenario may refer to, besides its own and the working folder.
         record: samples per second, 1 to 100000.
 
@@ -132,10 +132,10 @@ def read_recording(
     """Read a recording: Parquet, CSV, MDF, TDMS or MAT.
 
     Args:
-        file: of the recording.
+        file: file of the recording.
         channel_map: `uictest` for a file with channels as this program names them: all of them, as they are;
             else a preset or a YAML file, and the stop in the recording is returned as
-            :func:`uictest.evaluate` judges it: SI units, an even raster from the brake command to standstill.
+            :func:`uictest.evaluate` judges it: SI units, evenly sampled from brake command to standstill.
         trust: folders that the channel map may refer to, besides its own and the working folder.
 
     Raises:

@@ -149,12 +149,12 @@ def _case_of(
 
 
 class Validation:
-    """Recorded stops beside their simulation: how far off the model is, and where that has been shown.
+    """Recorded stops and their simulation: how far off the model is, and where that has been shown.
 
     Attributes:
         result: what validation.json has: stops, figures, domains.
         complete: whether every simulation came to an end.
-        folder: of the files, absolute; None where none were written.
+        folder: folder of the files, absolute; None where none were written.
     """
 
     def __init__(self, result: validation.Validation, *, complete: bool, folder: Path | None) -> None:

@@ -33,7 +33,7 @@ def frame_of(table: Table, index: Sequence[str]) -> pd.DataFrame:
     records = list(table.records)
     # A table without rows may have no columns.
     names = [column.key for column in table.for_programs] or list(index)
-    columns = {name: _column([record[name] for record in records]) for name in names}
+    columns = {name: _column_array([record[name] for record in records]) for name in names}
     frame = pd.DataFrame(columns, columns=names).set_index(list(index))
     return with_units(frame)
 
@@ -46,18 +46,18 @@ def with_units(frame: pd.DataFrame) -> pd.DataFrame:
 
 def column_units(names: Iterable[str]) -> dict[str, str]:
     """Return the unit of each column that holds a measure, `1` for a pure number."""
-    known = {*measures.STOP_COLUMNS, *measures.WHEELSET_COLUMNS}
-    stems = {name: _stem(name) for name in names}
-    return {name: measures.column_unit(stem) for name, stem in stems.items() if stem in known}
+    measure_columns = {*measures.STOP_COLUMNS, *measures.WHEELSET_COLUMNS}
+    stems = {name: _measure_name(name) for name in names}
+    return {name: measures.column_unit(stem) for name, stem in stems.items() if stem in measure_columns}
 
 
-def _stem(name: str) -> str:
+def _measure_name(name: str) -> str:
     """Return the measure of a column, which may be of one wheelset or an end of a range."""
     stem, _, last = name.rpartition("_")
     return stem if last.isdigit() or last in ("lowest", "highest") else name
 
 
-def _column(values: Sequence[Any]) -> Any:
+def _column_array(values: Sequence[Any]) -> Any:
     import numpy as np
 
     kinds = {type(value) for value in values}
@@ -71,13 +71,15 @@ def _column(values: Sequence[Any]) -> Any:
 _MOST_ROWS: Final = 50
 
 
-def verdict_html(content: report.RunContent) -> str:
+def run_summary_html(content: report.RunContent) -> str:
     """Return the counts of a run and one row for each case, those not as expected first. Text is escaped."""
     cases, series = report.explained_cases_table(content), report.comparison_table(content.series)
-    few = replace(cases, rows=list(cases.rows)[:_MOST_ROWS])
-    tables = "".join(report.html_table(table) for table in (series, few) if table.rows)
-    more = len(cases.rows) - len(few.rows)
-    note = f"<p>and {report.counted(more, 'more case')}: <code>frame()</code> has all</p>" if more else ""
+    first_cases = replace(cases, rows=list(cases.rows)[:_MOST_ROWS])
+    tables = "".join(report.html_table(table) for table in (series, first_cases) if table.rows)
+    further_cases = len(cases.rows) - len(first_cases.rows)
+    note = ""
+    if further_cases:
+        note = f"<p>and {report.counted(further_cases, 'more case')}: <code>frame()</code> has all</p>"
     return f"<p>{escape(content.tally)}</p>{tables}{note}"
 
 
@@ -102,7 +104,7 @@ class Results(Sequence[evaluation.CaseResult]):
     The stops of series are not among them, but in :attr:`series`.
 
     Attributes:
-        folder: of the reports, absolute; None where none were written.
+        folder: folder of the reports, absolute; None where none were written.
     """
 
     def __init__(
@@ -189,14 +191,14 @@ class Results(Sequence[evaluation.CaseResult]):
 
     def recording(self, case: str) -> Recording:
         """Return the recording of a case. Raises KeyError where it was not recorded."""
-        known = self[case].id
-        if known in self._recordings:
-            return self._recordings[known]
+        case_id = self[case].id
+        if case_id in self._recordings:
+            return self._recordings[case_id]
         if self.folder is not None:
-            path = report.recording_path(self.folder, known)
+            path = report.recording_path(self.folder, case_id)
             if path.is_file():
                 return read_parquet(path)
-        raise KeyError(f"{known} was not recorded: run it with record='all', or call uictest.simulate")
+        raise KeyError(f"{case_id} was not recorded: run it with record='all', or call uictest.simulate")
 
     def save(self, output: PathName = "reports", *, formats: Sequence[str] = ("csv", "html")) -> Path:
         """Write the reports that `uictest run -o` writes, and the recordings; return the folder of the run.
@@ -233,4 +235,4 @@ class Results(Sequence[evaluation.CaseResult]):
         return "\n".join([self.tally, *map(report.series_line, self.series), *lines, *more])
 
     def _repr_html_(self) -> str:
-        return verdict_html(self._content)
+        return run_summary_html(self._content)

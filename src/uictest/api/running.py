@@ -57,7 +57,7 @@ def run(
         what: scenario files, `*.series.yaml` files or folders, one or several [default: the folder
             `scenarios`]; or cases from :func:`uictest.load`.
         set: dotted key -> value or list of values in every scenario, as for :func:`uictest.load`.
-        seed: of sensor noise and random rails in every case, 0 to 2^32 - 1.
+        seed: seed of sensor noise and random rails in every case, 0 to 2^32 - 1.
         repeat: run the stop of every case so many times, 1 to 1000, under its seed and those that follow.
         select: expression over ids, file names and tags, as `-k`.
         tag: expression over tags, as `-m`.
@@ -107,7 +107,7 @@ class _Loaded(NamedTuple):
 
 
 def _loaded(what: What | None, texts: Sequence[str], seed: int | None, trusted: Sequence[Path]) -> _Loaded:
-    """Return what there is to run. Raises ValueError, ScenarioErrors."""
+    """Return the cases and series to run. Raises ValueError, ScenarioErrors."""
     sources = [what] if isinstance(what, str | PathLike | scenario.Case) else list(what or ())
     if what is not None and not sources:
         raise ValueError("nothing to run: name files or give cases")

@@ -54,8 +54,8 @@ class RigState:
         wheel_speed: circumferential, m/s.
         slide: 1 - wheel speed / train speed; 0 below 1 m/s.
         friction: friction coefficient of the rail under the wheelset.
-        tank_pressure: of the module of each wheelset, Pa.
-        clamping_force: of one caliper, N.
+        tank_pressure: tank pressure of the module of each wheelset, Pa.
+        clamping_force: clamping force of one caliper, N.
         brake_torque: on the wheelset, N m.
         reservoir_pressure: Pa.
     """
@@ -101,7 +101,7 @@ class SteppedRig:
 
     def __init__(self, cases: Sequence[scenario.Case], record: float | None, contract: int) -> None:
         """Check the arguments of a rig; :class:`Rig` explains them. Raises ValueError."""
-        if _whole(contract) not in CONTRACTS:
+        if _whole_number(contract) not in CONTRACTS:
             raise ValueError(f"contract is {contract!r}, expected {' or '.join(map(str, CONTRACTS))}")
         if record is not None and not (isinstance(record, Real) and 0.0 < record < math.inf):
             raise ValueError(f"record is {record!r}, expected samples per second or None")
@@ -120,14 +120,14 @@ class SteppedRig:
     @property
     def stopped(self) -> bool:
         """Whether the stop has ended: the train stands, or the scenario's longest duration has passed."""
-        return self._begun().has_ended
+        return self._begun_stop().has_ended
 
     @property
     def stands(self) -> bool:
         """Whether the train stands."""
-        return self._begun().stands
+        return self._begun_stop().stands
 
-    def _begin(self, inputs: TrainInputs, seed: int | None) -> tuple[Inputs, ...]:
+    def _begin_stop(self, inputs: TrainInputs, seed: int | None) -> tuple[Inputs, ...]:
         """Begin a stop and return what the sensors of each car show."""
         parameters = inputs.parameters
         try:
@@ -135,7 +135,7 @@ class SteppedRig:
         except ControllerError as error:
             raise ValueError(f"{error}: create the rig with contract=2") from None
         parameters["controller_contract"] = self._contract
-        number = None if seed is None else _whole(seed)
+        number = None if seed is None else _whole_number(seed)
         if seed is not None and (number is None or not 0 <= number <= _LARGEST_SEED):
             raise ValueError(f"seed is {seed!r}, expected a whole number from 0 to {_LARGEST_SEED}")
         if number is not None:
@@ -145,26 +145,26 @@ class SteppedRig:
         self._seed, self._inputs, self._stop = number, inputs, SteppedTrain(inputs, every)
         return tuple(map(read_inputs, self._stop.inputs))
 
-    def _begun(self) -> SteppedTrain:
+    def _begun_stop(self) -> SteppedTrain:
         if self._stop is None:
             raise RuntimeError("no stop has begun: call reset() first")
         return self._stop
 
-    def _running(self) -> SteppedTrain:
-        stop = self._begun()
+    def _running_stop(self) -> SteppedTrain:
+        stop = self._begun_stop()
         if stop.has_ended:
             raise RuntimeError(f"the stop has ended after {stop.time:g} s: call reset()")
         return stop
 
-    def _ended(self) -> SteppedTrain:
-        stop = self._begun()
+    def _ended_stop(self) -> SteppedTrain:
+        stop = self._begun_stop()
         if not stop.has_ended:
             raise RuntimeError(f"the stop has not ended after {stop.time:g} s: call step()")
         return stop
 
     def _carry_out(self, outputs: Sequence[Outputs], names: Sequence[str]) -> tuple[Inputs, ...]:
         """Carry out the commands for each car; an error begins with the name of its car."""
-        stop = self._running()
+        stop = self._running_stop()
         for record, of_car, name in zip(stop.outputs, outputs, names, strict=True):
             try:
                 write_outputs(record, of_car, self._contract)
@@ -173,19 +173,19 @@ class SteppedRig:
         stop.step()
         for exchange, name in zip(stop.memory["exchange"], names, strict=True):
             if exchange["failure"]:
-                raise ValueError(f"{name}{_refusal(exchange)}")
+                raise ValueError(f"{name}{_refusal_reason(exchange)}")
         return tuple(map(read_inputs, stop.inputs))
 
     def _states(self) -> tuple[RigState, ...]:
-        memory = self._begun().memory
+        memory = self._begun_stop().memory
         return tuple(_state_of(memory, car) for car in range(len(self.cases)))
 
     def _stated_seed(self) -> dict[str, str]:
-        """Return what results and recordings state of the seed, where it is not the scenario's."""
+        """Return the seed as results and recordings state it; empty where it is the scenario's."""
         return {} if self._seed is None else {"seed": str(self._seed)}
 
     def _results(self) -> list[evaluation.CaseResult]:
-        stop, inputs = self._ended(), self._inputs
+        stop, inputs = self._ended_stop(), self._inputs
         assert inputs is not None
         results = []
         peaks = peaks_beside(stop.memory["couplers"])
@@ -215,7 +215,7 @@ class SteppedRig:
         if self._record is None:
             raise RuntimeError("nothing was recorded: create the rig with record=100 (samples per second)")
         recordings = []
-        for case, finished in zip(self.cases, self._ended().finished(), strict=True):
+        for case, finished in zip(self.cases, self._ended_stop().finished(), strict=True):
             stop = replace(finished, contract=self._contract)
             recording = recording_of_stop(case, stop, from_outside=True)
             metadata = {**recording.metadata, **self._stated_seed()}
@@ -228,13 +228,13 @@ def _loaded(path: str | Path, trust: Iterable[str | Path]) -> list[scenario.Case
     return scenario.load([location], trusted=[Path(folder) for folder in trust])
 
 
-def _whole(value: Any) -> int | None:
+def _whole_number(value: Any) -> int | None:
     """Return a whole number, of numpy, too; None for all else."""
     return None if isinstance(value, bool) or not hasattr(value, "__index__") else index(value)
 
 
-def _refusal(exchange: Any) -> str:
-    """Return why machine code has refused commands that :func:`write_outputs` lets pass."""
+def _refusal_reason(exchange: Any) -> str:
+    """Return the reason for which machine code refused commands that :func:`write_outputs` lets pass."""
     wheelset = int(exchange["failed_wheelset"])
     if exchange["failure"] == NO_REDUCTION:
         return f"dynamic_reduction[{wheelset}] is {exchange['dynamic_reduction'][wheelset]}, expected 0 to 1"
@@ -305,7 +305,7 @@ class Rig(SteppedRig):
 
         Raises ValueError for another seed.
         """
-        return self._begin(alone(assemble(self.case)), seed)[0]
+        return self._begin_stop(alone(assemble(self.case)), seed)[0]
 
     def step(
         self,
@@ -395,7 +395,7 @@ class TrainRig(SteppedRig):
     def reset(self, seed: int | None = None) -> tuple[Inputs, ...]:
         """Begin a stop and return what the sensors of each car show; as :meth:`uictest.Rig.reset`."""
         cars = self.cases[0].cars
-        return self._begin(assemble_train(cars, coupling_of(cars[0].scenario)), seed)
+        return self._begin_stop(assemble_train(cars, coupling_of(cars[0].scenario)), seed)
 
     def step(self, outputs: Sequence[Outputs]) -> tuple[Inputs, ...]:
         """Carry out the commands for one controller cycle and return what the sensors show at its end.
@@ -407,7 +407,7 @@ class TrainRig(SteppedRig):
             RuntimeError: before :meth:`reset`, or after the end of the stop.
             ValueError: commands that no valve can carry out, the message names the car; no car moves.
         """
-        self._running()
+        self._running_stop()
         if not isinstance(outputs, Sequence):
             raise ValueError(f"outputs is {type(outputs).__name__}, expected a list, one for each car")
         if len(outputs) != len(self.cases):
@@ -422,7 +422,7 @@ class TrainRig(SteppedRig):
     @property
     def coupler_forces(self) -> tuple[float, ...]:
         """Force in the coupler behind each car but the last, N; positive where it pulls."""
-        return tuple(self._begun().memory["couplers"]["force"].tolist())
+        return tuple(self._begun_stop().memory["couplers"]["force"].tolist())
 
     def result(self) -> tuple[evaluation.CaseResult, ...]:
         """Return the judged result of each car, as `uictest run` judges it; RuntimeError before the end."""

@@ -37,7 +37,7 @@ class SweepResults:
 
     Attributes:
         result: counts, rates by parameter, maps, trends, sensitivities, the frontier, the worst cases.
-        folder: of the results, absolute; None where none were kept.
+        folder: folder of the results, absolute; None where none were kept.
     """
 
     def __init__(self, result: report.SweepResult, frame: pd.DataFrame, folder: Path | None) -> None:
@@ -116,7 +116,7 @@ def sweep(
     Args:
         file: a `*.sweep.yaml`.
         set: dotted key -> value in every case, as for :func:`uictest.load`.
-        seed: of sensor noise and random rails in every case, 0 to 2^32 - 1.
+        seed: seed of sensor noise and random rails in every case, 0 to 2^32 - 1.
         select: expression over ids, as `-k`.
         measures: columns of the table to map and to compute sensitivities of, one or several.
         frontier: parameter along which to find where the verdict flips.

@@ -63,7 +63,7 @@ def malformed(option: str, text: str | None) -> Iterator[None]:
 def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> str:
     """Return the ids, one per line; if `described`, each with title and tags, separated by tabs."""
     return "\n".join(
-        _line(case.id, case.scenario.title, case.scenario.tags, described=described) for case in cases
+        _listed_line(case.id, case.scenario.title, case.scenario.tags, described=described) for case in cases
     )
 
 
@@ -71,7 +71,7 @@ def series_lines(selected: Sequence[series.Series], *, described: bool = False) 
     """Return the ids, one per line, and below each the ids of its cases; if `described`, with titles."""
     lines = []
     for planned in selected:
-        lines.append(_line(planned.id, planned.file.title, planned.file.tags, described=described))
+        lines.append(_listed_line(planned.id, planned.file.title, planned.file.tags, described=described))
         for stop in planned.stops:
             repeat = stop.case.scenario.repeat
             times = f" x {repeat}" if repeat > 1 else ""
@@ -79,7 +79,7 @@ def series_lines(selected: Sequence[series.Series], *, described: bool = False) 
     return "\n".join(lines)
 
 
-def _line(name: str, title: str, tags: Sequence[str], *, described: bool) -> str:
+def _listed_line(name: str, title: str, tags: Sequence[str], *, described: bool) -> str:
     texts = (name, title, " ".join(tags)) if described else (name,)
     return "\t".join(map(printable, texts))
 

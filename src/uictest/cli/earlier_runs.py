@@ -39,7 +39,7 @@ class BaselineChoice(NamedTuple):
 def scope_of(
     selected: Sequence[scenario.Case], planned: Sequence[series.Series], searched: Sequence[Path]
 ) -> comparison.Scope:
-    """Return what a run selects; `searched` are paths of which it takes every case and series."""
+    """Return the selection of a run; `searched` are paths of which it takes every case and series."""
     return comparison.Scope(
         frozenset([*(case.id for case in selected), *(one.id for one in planned)]),
         [yaml.display_name(path) for path in searched],
@@ -78,7 +78,7 @@ def accept_or_compare(
         message(f"uictest: interrupted: {choice.folder} is unchanged")
         return ExitCode.MET
     if choice.accepting:
-        _accept(published, choice.folder, accepted)
+        _accept_baseline(published, choice.folder, accepted)
         return ExitCode.MET
     compared = published.content.baseline
     if compared is None or (quiet and compared.agrees):
@@ -91,7 +91,7 @@ def accept_or_compare(
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 
-def _accept(run: runs.Published, folder: Path, baseline: comparison.Baseline | None) -> None:
+def _accept_baseline(run: runs.Published, folder: Path, baseline: comparison.Baseline | None) -> None:
     """Make the results of a run the baseline, and keep cases that it did not select. Raises OSError."""
     document = comparison.accepted_document(json.loads(run.publication.texts[report.RESULTS]), baseline)
     files.make_folder(folder)
@@ -135,7 +135,7 @@ def failed_last(
 def _newest_run(output: Path) -> Path | None:
     """Return the newest run of scenarios: `latest`, or the newest other folder if that judged recordings."""
     latest = files.latest_run(output)
-    if latest is None or _command(latest) not in history.OF_RECORDINGS:
+    if latest is None or _command_of_run(latest) not in history.OF_RECORDINGS:
         return latest
 
     def start(manifest: Path) -> tuple[str, int]:
@@ -143,10 +143,10 @@ def _newest_run(output: Path) -> Path | None:
         return manifest.parent.name.partition("-")[0], manifest.stat().st_mtime_ns
 
     manifests = sorted(output.glob("*/manifest.json"), key=start, reverse=True)
-    return next((file.parent for file in manifests if _command(file.parent) == "run"), None)
+    return next((file.parent for file in manifests if _command_of_run(file.parent) == "run"), None)
 
 
-def _command(run: Path) -> str:
+def _command_of_run(run: Path) -> str:
     """Return the command that made a run; empty if it cannot be read."""
     try:
         return str(json.loads((run / "manifest.json").read_bytes())["command"][1])
@@ -155,7 +155,7 @@ def _command(run: Path) -> str:
 
 
 def named_paths(*paths: Path | None) -> list[Path]:
-    """Return where paths of the command line lead before the run, after which `latest` leads elsewhere."""
+    """Return the targets of paths on the command line before the run, after which `latest` moves."""
     return [Path(os.path.realpath(path)) for path in paths if path is not None]
 
 

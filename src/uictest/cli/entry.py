@@ -157,7 +157,7 @@ def execute(arguments: Sequence[str]) -> ExitCode:
     """Run one command line, and return its exit code. Raises nothing."""
     use_safe_encoding()
     junit = UnfinishedJUnit(arguments)
-    ending = _ending(tuple(arguments))
+    ending = _ending_of_command(tuple(arguments))
     junit.write(ending)
     reason = lost_data()
     if reason:
@@ -165,13 +165,13 @@ def execute(arguments: Sequence[str]) -> ExitCode:
     return ExitCode.ERROR if reason and ending.code is not ExitCode.INTERRUPTED else ending.code
 
 
-def _ending(arguments: tuple[str, ...]) -> Ending:
+def _ending_of_command(arguments: tuple[str, ...]) -> Ending:
     """Run one command line, and say why an exception ended it."""
     try:
         return Ending(_call(arguments))
     except typer.TyperException as error:
         option = getattr(error, "option_name", "")
-        message(f"uictest: {error.format_message()}\n{_advice(arguments, option)}")
+        message(f"uictest: {error.format_message()}\n{_option_advice(arguments, option)}")
         return Ending(ExitCode.USAGE, [error.format_message()], option)
     except scenario.ScenarioErrors as error:
         for trace in error.traces:
@@ -193,7 +193,7 @@ def _ending(arguments: tuple[str, ...]) -> Ending:
         # Outside its standalone mode typer exits only if the reader of `--help` has gone.
         return Ending(ExitCode.MET)
     except Exception as error:
-        reason = _reason(error) if isinstance(error, OSError) else ""
+        reason = _error_reason(error) if isinstance(error, OSError) else ""
         if _is_of_argument(error, arguments):
             message(f"uictest: {reason or error}")
             return Ending(ExitCode.USAGE, [reason or str(error)])
@@ -204,7 +204,7 @@ def _ending(arguments: tuple[str, ...]) -> Ending:
         return Ending(ExitCode.ERROR, [reason])
 
 
-def _advice(arguments: Sequence[str], option: str) -> str:
+def _option_advice(arguments: Sequence[str], option: str) -> str:
     command = next(iter(arguments), "")
     commands, otherwise = _WRITTEN_OTHERWISE.get(option, ((), ""))
     if command in commands:
@@ -240,7 +240,7 @@ def _call(arguments: tuple[str, ...]) -> ExitCode:
     return ExitCode(code or 0)
 
 
-def _reason(error: OSError) -> str:
+def _error_reason(error: OSError) -> str:
     reason = error.strerror or str(error) or type(error).__name__
     return f"{error.filename}: {reason}" if error.filename is not None else reason
 
@@ -264,7 +264,7 @@ class UnfinishedJUnit:
         given = [after for text, after in pairwise(arguments) if text == JUNIT]
         given += [text.partition("=")[2] for text in arguments if text.startswith(f"{JUNIT}=")]
         self._path = Path(given[-1]) if given else None
-        self._before = self._path and _identity(self._path)
+        self._before = self._path and _file_identity(self._path)
         self._command = f"uictest {next(iter(arguments), '')}"
 
     def write(self, ending: Ending) -> None:
@@ -274,14 +274,14 @@ class UnfinishedJUnit:
             return
         reasons = ending.reasons or [f"exit code {code:d}: {code.name.lower().replace('_', ' ')}"]
         try:
-            if _identity(path) == self._before and is_replaceable(path):
+            if _file_identity(path) == self._before and is_replaceable(path):
                 files.make_folder(path.parent)  # that of -o, which nothing has made yet
-                files.write_to(path, _document(reasons, self._command))
+                files.write_to(path, _junit_document(reasons, self._command))
         except (OSError, ValueError) as error:
             message(f"uictest: {error}")
 
 
-def _identity(path: Path) -> tuple[int, int] | None:
+def _file_identity(path: Path) -> tuple[int, int] | None:
     try:
         status = os.stat(path)  # noqa: PTH116 - a name may be too long, or hold a null
     except (OSError, ValueError):
@@ -289,7 +289,7 @@ def _identity(path: Path) -> tuple[int, int] | None:
     return status.st_ino, status.st_mtime_ns
 
 
-def _document(reasons: Sequence[Reason], command: str) -> str:
+def _junit_document(reasons: Sequence[Reason], command: str) -> str:
     """Return a JUnit document with a testcase for each file with errors, and one for all else."""
     from uictest.core.document import Suite, Testcase, class_name  # which few commands need
 

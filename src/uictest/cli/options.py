@@ -53,7 +53,7 @@ def argument(spelling: str, meaning: str, **settings: Any) -> Any:
     return typer.Argument(metavar=spelling, help=meaning, **settings)
 
 
-def _jobs(text: str) -> int:
+def _parsed_jobs(text: str) -> int:
     if text == "auto":
         return runs.available_processors()
     if text.isascii() and text.isdigit() and int(text) > 0:
@@ -110,7 +110,7 @@ TRUSTED_FOLDERS: Final = "UICTEST_TRUST"
 
 
 def trusted_folders(named: list[Path] | None = None) -> list[Path]:
-    """Return the named folders and those of UICTEST_TRUST. Raises InvalidInputError for what is no folder."""
+    """Return the named folders and those of UICTEST_TRUST. Raises InvalidInputError for other paths."""
     folders = [Path(text) for text in os.environ.get(TRUSTED_FOLDERS, "").split(os.pathsep) if text]
     for folder in folders:
         if not folder.is_dir():
@@ -193,7 +193,7 @@ MaxFail = Annotated[int | None, option("--maxfail N", "Stop after N cases that a
 DryRun = Annotated[bool, option("--dry-run", "List the selected cases without running them.")]
 JUNIT: Final = "--junitxml"
 JUnitFile = Annotated[Path | None, option(f"{JUNIT} FILE", "Also write the JUnit XML to FILE.")]
-Jobs = Annotated[int, option("-n --jobs N|auto", "Number of threads.", parser=_jobs)]
+Jobs = Annotated[int, option("-n --jobs N|auto", "Number of threads.", parser=_parsed_jobs)]
 RunFormat = Annotated[
     Format,
     option(

@@ -75,12 +75,12 @@ def append_summary(append: Callable[[], None]) -> None:
 
 
 def terminal_width(stream: TextIO) -> int | None:
-    """Return the characters that a line of the terminal holds, None for a stream that is no terminal."""
+    """Return the characters that a line of the terminal holds, None for a stream that is not a terminal."""
     return shutil.get_terminal_size().columns if stream.isatty() else None
 
 
 def lost_data() -> str:
-    """Return why stdout did not accept everything since the last call; empty where it did."""
+    """Return the reason if stdout did not accept everything since the last call; empty where it did."""
     reasons = [error.strerror or str(error) for error in _losses]
     _losses.clear()
     return f"stdout: {reasons[0]}" if reasons else ""

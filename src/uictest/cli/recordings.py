@@ -33,7 +33,7 @@ def channel_map(
 ) -> tuple[field_data.ChannelMap, dict[str, str]]:
     """Return a channel map, its trigger that of the option, and the files read for it.
 
-    Raises as :func:`uictest.runs.named_map`, and typer.BadParameter for what is no trigger.
+    Raises as :func:`uictest.runs.named_map`, and typer.BadParameter for a text that is not a trigger.
     """
     loaded, inputs = runs.named_map(reference, trusted)
     with rejected("--trigger"):

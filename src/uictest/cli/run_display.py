@@ -50,7 +50,7 @@ class Lines(Display):
         """Show one result."""
         if self.quiet and result.met and not result.allowed and not differences:
             return
-        self._show(report.case_word(result, differences), report.case_line(result, differences))
+        self._show_result(report.case_word(result, differences), report.case_line(result, differences))
         if self.verbose:
             for line in report.criterion_lines(result):
                 data(line)
@@ -61,19 +61,19 @@ class Lines(Display):
         """Show a series, and unless quiet its criteria and the stops that count."""
         if self.quiet and result.met:
             return
-        self._show(report.result_word(result), report.series_line(result))
+        self._show_result(report.result_word(result), report.series_line(result))
         for line in (*report.series_lines(result), *report.firmness_lines(result)):
             data(line)
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the missing cases of the baseline; with -v also the definitions of criteria, and parts."""
         for line in report.missing_lines(content.baseline) if content.baseline else ():
-            self._show(report.DIFFERS, line)
+            self._show_result(report.DIFFERS, line)
         if self.verbose:
-            for line in _common_lines(_shown(content, quiet=self.quiet)):
+            for line in _common_lines(_shown_results(content, quiet=self.quiet)):
                 data(line)
 
-    def _show(self, word: str, line: str) -> None:
+    def _show_result(self, word: str, line: str) -> None:
         first = report.line_word(word)
         tone = report.tone(word) if self._in_colour else None
         data(f"{report.coloured_text(first, tone)}{line.removeprefix(first)}")
@@ -114,12 +114,12 @@ class VerdictTable(Display):
 
     def end(self, content: report.RunContent, document: str) -> None:
         """Show the table and the explanations."""
-        for line in self._lines(content):
+        for line in self._content_lines(content):
             data(line)
 
-    def _lines(self, content: report.RunContent) -> Iterator[str]:
+    def _content_lines(self, content: report.RunContent) -> Iterator[str]:
         width = terminal_width(sys.stdout)
-        results = _shown(content, quiet=self.quiet)
+        results = _shown_results(content, quiet=self.quiet)
         if results:
             table = replace(report.cases_table(content), rows=results)
             yield from report.table_lines(table, width, coloured=self._in_colour)
@@ -160,7 +160,7 @@ def chosen_display(shown: Format, *, quiet: bool, verbose: bool) -> Display:
     return kind(quiet=quiet, verbose=verbose)
 
 
-def _shown(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
+def _shown_results(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
     """Return the cases; if `quiet`, those that are not as expected or miss what is only allowed."""
     return [result for result in content.results if not quiet or result.allowed or not content.passes(result)]
 

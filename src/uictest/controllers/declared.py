@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 CONTRACTS: Final = (1, 2)
-"""Versions of the contract. What version 2 adds lies behind what version 1 has, in inputs and outputs."""
+"""Versions of the contract. Version 2 appends its fields to those of version 1, in inputs and outputs."""
 _SHOWN: Final = 8
 """Names that a message lists at most; chosen."""
 
@@ -39,7 +39,7 @@ class Declaration(Protocol):
 
 
 class Problem(NamedTuple):
-    """What is wrong with one parameter that a controller is given, and what to write."""
+    """An error in one parameter of a controller, and a hint what to write."""
 
     name: str
     message: str
@@ -70,22 +70,22 @@ def parameter_problems(
 
 def _problems_of_value(name: str, declared: Declaration, value: Any) -> Iterator[Problem]:
     unit = f" {declared.unit}" if declared.unit not in ("", "1") else ""
-    expected = None if declared.default is None else _kind(declared.default)
-    if expected is not None and _kind(value) != expected:
+    expected = None if declared.default is None else _kind_in_words(declared.default)
+    if expected is not None and _kind_in_words(value) != expected:
         written = value if isinstance(value, str) else json.dumps(value)
         hint = f"write a bare number{unit and ' in'}{unit}" if expected == "a number" else ""
-        yield Problem(name, f"expected {expected}, found {_kind(value)} ({written})", hint)
+        yield Problem(name, f"expected {expected}, found {_kind_in_words(value)} ({written})", hint)
         return
     for element in value if isinstance(value, list | tuple) else (value,):
         if isinstance(element, float) and not math.isfinite(element):
             yield Problem(name, f"{element} is no finite number", "accepted: finite numbers")
         elif declared.range is not None:
             low, high = declared.range
-            if _kind(element) != "a number" or not low <= element <= high:
+            if _kind_in_words(element) != "a number" or not low <= element <= high:
                 yield Problem(name, f"{element} is out of range", f"accepted: {low:g} to {high:g}{unit}")
 
 
-def _kind(value: Any) -> str:
+def _kind_in_words(value: Any) -> str:
     kinds = {bool: "true or false", str: "a text", int | float: "a number", list | tuple: "a list"}
     return next((words for kind, words in kinds.items() if isinstance(value, kind)), "a mapping")
 
@@ -94,7 +94,7 @@ def nothing_declared(given: Mapping[str, Any]) -> Problem:
     """Return the problem of parameters for a controller that declares none: the lines to write."""
     names, lines = ", ".join(given), []
     for name, value in given.items():
-        kind = _kind(value)
+        kind = _kind_in_words(value)
         default = "NUMBER, unit: UNIT" if kind == "a number" else kind.split()[-1].upper()
         lines.append(f"{name}: {{default: {default}}}")
     declared = f"`declared_parameters: {{{', '.join(lines)}}}`"
@@ -103,7 +103,7 @@ def nothing_declared(given: Mapping[str, Any]) -> Problem:
 
 
 HEADER: Final = Path(__file__).with_name("uictest_controller.h")
-"""What a controller in C includes."""
+"""The header that a controller in C includes."""
 
 Kind = Literal["python", "library", "fmu", "connect", "registered"]
 ProgramKey = tuple[str, str, str]
@@ -112,7 +112,7 @@ ProgramKey = tuple[str, str, str]
 
 @dataclass(frozen=True, slots=True)
 class ControllerProgram:
-    """A controller that is no part of this package.
+    """A controller that is not part of this package.
 
     Attributes:
         kind: the key that names it in a scenario.
@@ -134,12 +134,12 @@ class ControllerProgram:
 
     @property
     def key(self) -> ProgramKey:
-        """What programs share that are the same one."""
+        """Identity of a program: equal for the same file or address."""
         return self.kind, self.location, self.sha256
 
     @property
     def surroundings(self) -> str:
-        """Where the modules and libraries lie that it may load, in words."""
+        """Source of the modules and libraries that it may load, in words."""
         if self.kind == "connect":
             return "a process of its own"
         return "installed packages" if self.kind == "registered" else str(Path(self.location).parent)
@@ -165,7 +165,7 @@ def installed_names() -> tuple[str, ...]:
 
 
 def installed(name: str) -> tuple[EntryPoint, ...]:
-    """Return what packages have registered under a name: nothing, one entry, or several that collide."""
+    """Return the entry points registered by packages under a name: none, one, or several that collide."""
     from importlib.metadata import entry_points
 
     return tuple(entry_points(group=GROUP, name=name))

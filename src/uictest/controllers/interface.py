@@ -163,7 +163,7 @@ UNTOUCHED: Final = -1.0 / 3.0
 """In each `dynamic_reduction` before a controller of version 1 is called, whose outputs end there: no byte
 is zero."""
 GUARD: Final = 0x5AFE_C0DE_5AFE_C0DE
-"""Written behind the outputs: a controller that writes beyond them destroys it."""
+"""Written after the outputs: a controller that writes beyond them destroys it."""
 
 NOT_CALLED: Final = 0
 STEPPING: Final = 1

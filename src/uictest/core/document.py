@@ -17,7 +17,7 @@ Cell = str | float | int | bool | None
 Tone = Literal["good", "bad", "odd"]
 """How a word is coloured. odd: an error of the program or the scenario, not of what was tested."""
 Digits = int | Literal["significant"] | None
-"""How people read numbers: so many decimals, or five significant digits. None: the column holds texts."""
+"""How people read numbers: so many decimals, or four significant digits. None: the column holds texts."""
 Row = TypeVar("Row", contravariant=True)
 TestcaseStatus = Literal["passed", "failure", "error", "skipped"]
 
@@ -26,7 +26,7 @@ def number_text(value: float | None, digits: Digits = "significant") -> str:
     """Return a number as people read it, `-` where there is none."""
     if value is None or math.isnan(value):
         return "-"
-    return f"{value:.5g}" if digits == "significant" or digits is None else f"{value:.{digits}f}"
+    return f"{value:.4g}" if digits == "significant" or digits is None else f"{value:.{digits}f}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -50,5 +50,5 @@ def head_of(document: Mapping[str, Any]) -> str:
 
 
 def is_old(document: Mapping[str, Any]) -> bool:
-    """Return whether uictest 0.2 or older wrote a document."""
+    """Return whether a document was written by uictest 0.2 or older."""
     return str(document.get("schema")) in _OF_OLD

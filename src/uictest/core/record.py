@@ -119,12 +119,12 @@ def layout_of(record: type[Record], *additions: type[Record]) -> Any:
     """
     import numpy as np  # what only declares records must not pay for it: `uictest check`, `uictest --help`
 
-    fields = {name: (name, *_kind(name, annotation)) for name, annotation in fields_of(record).items()}
-    owners_before = _owners(record)
+    fields = {name: (name, *_number_type(name, annotation)) for name, annotation in fields_of(record).items()}
+    owners_before = _declaring_classes(record)
     for addition in additions:
-        owners = _owners(addition)
+        owners = _declaring_classes(addition)
         for name, annotation in fields_of(addition).items():
-            field = (name, *_kind(name, annotation))
+            field = (name, *_number_type(name, annotation))
             if owners_before.get(name, owners[name]) is not owners[name] or fields.get(name, field) != field:
                 raise TypeError(
                     f"{addition.__module__}.{addition.__qualname__}: {name!r} is a field of the rig "
@@ -134,13 +134,13 @@ def layout_of(record: type[Record], *additions: type[Record]) -> Any:
     return np.dtype((np.record, list(fields.values())))
 
 
-def _owners(record: type[Record]) -> dict[str, type]:
+def _declaring_classes(record: type[Record]) -> dict[str, type]:
     """Return the class that declares each field of a record."""
-    return {name: each for each in reversed(record.__mro__) for name in get_annotations(each)}
+    return {name: base for base in reversed(record.__mro__) for name in get_annotations(base)}
 
 
-def _kind(name: str, annotation: Any) -> tuple[Any, ...]:
-    """Kind of number of a field and, for a table, its shape."""
+def _number_type(name: str, annotation: Any) -> tuple[Any, ...]:
+    """Return the type of the numbers of a field and, for a table, its shape."""
     if annotation in _KINDS:
         return (_KINDS[annotation],)
     values, *lengths = get_args(annotation) or (None,)

@@ -89,12 +89,12 @@ def trials_needed(probability: float, confidence: float = 0.95) -> int | None:
 
 
 def median_rank(draws: int, confidence: float) -> int | None:
-    """Return how far from either end the innermost draws lie between which the median is; None for no rank.
+    """Return the rank, from either end, of the innermost draws that bound the median; None if none do.
 
-    Half of the doubt lies on each side. Of n independent draws, the number at or below the median is
-    binomial(n, 1/2), so that the draw of rank r is at most the median with the probability P(B >= r) (David
-    and Nagaraja, Order Statistics, 3rd ed., section 7.1), for any distribution. Draws of equal value make the
-    interval safer, never less safe.
+    Half of the error probability lies on each side. Of n independent draws, the number at or below the
+    median is binomial(n, 1/2), so that the draw of rank r is at most the median with the probability
+    P(B >= r) (David and Nagaraja, Order Statistics, 3rd ed., section 7.1), for any distribution. Draws of
+    equal value make the interval safer, never less safe.
     """
     from scipy.special import betainc
 

@@ -260,9 +260,9 @@ def with_unit(numbers: str, unit: str) -> str:
 
 
 def recorded_spellings(si: str) -> dict[str, float]:
-    """Return what recordings may write for a unit whose SI unit is `si`: spelling -> size in SI.
+    """Return the spellings of units in recordings whose SI unit is `si`: spelling -> size in SI.
 
-    A unit with a zero of its own is none of them: a channel map states it as SI unit and offset.
+    A unit with a zero of its own is not among them: a channel map states it as SI unit and offset.
     """
     units = [
         unit
@@ -276,29 +276,29 @@ def recorded_spellings(si: str) -> dict[str, float]:
 
 
 def recorded_unit_size(unit: str, si: str) -> float | None:
-    """Return the size of a recording's `unit` in the SI unit `si`; None if it is no unit of that kind.
+    """Return the size of a recording's `unit` in the SI unit `si`; None if it is not such a unit.
 
     Case and blanks are ignored where the unit stays unambiguous.
     """
     known = recorded_spellings(si)
     if unit in known:
         return known[unit]
-    matches = {size for symbol, size in known.items() if _alike(symbol, unit)}
+    matches = {size for symbol, size in known.items() if _is_same_unit(symbol, unit)}
     return matches.pop() if len(matches) == 1 else None
 
 
 def is_recorded_unit(text: str) -> bool:
-    """Return whether a text is a unit, of whatever kind, as people write it."""
-    return text in ROTATIONAL_SPEEDS or any(_alike(symbol, text) for symbol in _EVERY_SPELLING)
+    """Return whether a text is a spelling of a unit of any kind."""
+    return text in ROTATIONAL_SPEEDS or any(_is_same_unit(symbol, text) for symbol in _EVERY_SPELLING)
 
 
-def _alike(symbol: str, written: str) -> bool:
+def _is_same_unit(symbol: str, written: str) -> bool:
     # milli and mega differ by their case alone.
     same_prefix = (symbol[:1] == "M") == (written[:1] == "M")
-    return same_prefix and _plain(symbol) == _plain(written)
+    return same_prefix and _without_blanks_and_case(symbol) == _without_blanks_and_case(written)
 
 
-def _plain(symbol: str) -> str:
+def _without_blanks_and_case(symbol: str) -> str:
     return symbol.replace(" ", "").replace("·", "").casefold()
 
 

@@ -37,7 +37,7 @@ def read(kind: str, inputs: bytes) -> bytes | None:
         with contextlib.suppress(OSError):
             cached = _bytes_of(folder / name_of(kind, inputs))
             content = cached[_DIGEST_SIZE:]
-            if cached[:_DIGEST_SIZE] == _digest(inputs, content):
+            if cached[:_DIGEST_SIZE] == _digest_of_entry(inputs, content):
                 return content
     return None
 
@@ -46,12 +46,14 @@ def write(kind: str, inputs: bytes, content: bytes) -> None:
     """Cache content for :func:`read` in the first writable folder; warn once if there is none."""
     for folder in safe_folders(make=True):
         try:
-            files.write(folder, name_of(kind, inputs), _digest(inputs, content) + content, private=True)
+            files.write(
+                folder, name_of(kind, inputs), _digest_of_entry(inputs, content) + content, private=True
+            )
         except OSError as error:
-            _warn(f"the cache {str(folder)!r} cannot be written ({error.strerror})")
+            _warn_once(f"the cache {str(folder)!r} cannot be written ({error.strerror})")
         else:
             return
-    _warn(
+    _warn_once(
         "nothing is cached, so each run computes anew; set UICTEST_CACHE to a folder that only you can write"
     )
 
@@ -66,7 +68,7 @@ def safe_folders(*, make: bool) -> Iterator[Path]:
         except OSError:  # a home that is missing or read-only: try the next root
             continue
         if reason:
-            _warn(f"the cache {str(root)!r} is not used: {reason}")
+            _warn_once(f"the cache {str(root)!r} is not used: {reason}")
         else:
             yield Path(os.path.realpath(root))
 
@@ -76,7 +78,7 @@ def name_of(kind: str, inputs: bytes) -> str:
     return f"{kind}-{hashlib.sha256(inputs).hexdigest()[:20]}"
 
 
-def _digest(inputs: bytes, content: bytes) -> bytes:
+def _digest_of_entry(inputs: bytes, content: bytes) -> bytes:
     return hashlib.sha256(hashlib.sha256(inputs).digest() + content).digest()
 
 
@@ -89,7 +91,7 @@ def _bytes_of(path: Path) -> bytes:
 
 
 @cache
-def _warn(text: str) -> None:
+def _warn_once(text: str) -> None:
     logging.getLogger(__name__).warning("uictest: %s", text)
 
 
@@ -103,7 +105,7 @@ def roots() -> Iterator[Path]:
 
 
 def why_unsafe(folder: Path) -> str:
-    """Return why others could put files into an existing folder, and what to do; empty if they cannot.
+    """Return the way in which others could put files into a folder, and the remedy; empty if they cannot.
 
     The folder must belong to this user, and every folder above it to this user or the system: whoever can
     write a folder can rename its contents, unless it is sticky, like /tmp. The target of a link is checked

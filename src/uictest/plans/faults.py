@@ -13,7 +13,7 @@ from typing import Final, Literal, NamedTuple
 
 
 class Effects(NamedTuple):
-    """What a fault changes while it is active, SI units; by default nothing."""
+    """Changes by a fault while it is active, SI units; by default none."""
 
     speed_valid: float = 1.0  # 0 where the speed sensor reports a fault
     speed_held: float = 0.0  # 1 where it goes on reading what it read last
@@ -94,7 +94,7 @@ class FaultKind(NamedTuple):
         return self.part not in _OF_TRAIN
 
     def effects(self, value: float | None) -> Effects:
-        """Return what it changes with a value in SI units, or without one."""
+        """Return its changes for a value in SI units, or without one."""
         if isinstance(self.changes, Effects):
             return self.changes
         return self.without_value if value is None else self.changes(value)

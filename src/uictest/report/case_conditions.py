@@ -55,7 +55,7 @@ def part_sentences(parts: Mapping[str, evaluation.EffectivePart], told: str = ""
 def changed_parameters(
     parts: Mapping[str, evaluation.EffectivePart], varied: Collection[str] = (), told: str = ""
 ) -> list[str]:
-    """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
+    """Return the parameters that differ from the library: `controller.slip_threshold 3 km/h (library: ...)`.
 
     The controller under test comes first, also one of the library that is not the default. Values of the
     scenario itself are compared with its defaults. The keys of `varied` are left out. `told` as for
@@ -66,7 +66,7 @@ def changed_parameters(
 
 
 def changes_of(result: evaluation.CaseResult) -> list[str]:
-    """Return what differs from the library in a case, as :func:`changed_parameters` does."""
+    """Return the parameters of a case that differ from the library, as :func:`changed_parameters` does."""
     return changed_parameters(result.parts, told=result.controller_version)
 
 
@@ -143,7 +143,7 @@ def base_word(part: evaluation.EffectivePart) -> str:
 
 
 def program_sentence(program: evaluation.Program) -> str:
-    """Return what a controller from outside is: `version 1.2.0, python my_wsp.py, SHA-256 8ef1fb87eb73`."""
+    """Return a controller from outside in words: `version 1.2.0, python my_wsp.py, SHA-256 8ef1fb87eb73`."""
     told = program.told_version and f" (the program says {program.told_version})"
     version = program.version and f"version {program.version}{told}"
     digest = program.sha256 and f"SHA-256 {program.sha256[:_DIGITS]}"
@@ -229,7 +229,7 @@ def _as_yaml(entries: Sequence[tuple[Sequence[str], str]]) -> str:
 
 
 def domain_sentences(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield what of a case lies outside of what was validated; nothing where all of it lies inside."""
+    """Yield the conditions of a case outside of what was validated; nothing where all lie inside."""
     domain = result.domain_of_validity
     if domain is None or not domain.outside:
         return
@@ -304,7 +304,7 @@ def car_facts(result: evaluation.CaseResult) -> dict[str, str]:
 
 
 def implausible_sentences(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield what of the car is implausible, and the mistake that is likely."""
+    """Yield the implausible properties of the car, each with the likely mistake."""
     for figure in () if result.car is None else result.car.implausible:
         yield printable(f"implausible: {figure}: {figure.likely}")
 

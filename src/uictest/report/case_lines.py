@@ -98,9 +98,9 @@ class CloseCall(NamedTuple):
 def close_calls(
     results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()
 ) -> list[CloseCall]:
-    """Return what is close or not certain: what is not firm, of series, what turns, the narrowest margins.
+    """Return the close calls: what is not firm or not certain, what turns, and the narrowest margins.
 
-    A criterion by which a case or series is not as expected is no such thing.
+    A criterion by which a case or series is not as expected is not a close call.
     """
     turning: list[CloseCall] = []
     narrow: list[tuple[float, CloseCall]] = []
@@ -153,14 +153,14 @@ def _of_series(result: SeriesResult) -> Iterator[CloseCall]:
     for judged in result.criteria:
         verdict = judged.verdict
         if judged.confident is False and (verdict.status == "pass" or result.met):
-            text = _uncertain(judged, result.confidence)
+            text = _uncertain_line(judged, result.confidence)
             yield CloseCall(result.id, verdict.id, "turns", text, of_series=True)
         elif (share := _narrow_margin(verdict)) is not None:
             text = _narrow_text(verdict, share)
             yield CloseCall(result.id, verdict.id, "narrow", text, of_series=True)
 
 
-def _uncertain(judged: SeriesVerdict, confidence: float) -> str:
+def _uncertain_line(judged: SeriesVerdict, confidence: float) -> str:
     verdict, estimate = judged.verdict, judged.estimate
     from_speed = f" from {judged.place}" if judged.speed_kmh is not None else ""
     value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(judged)}{from_speed}: not certain"
@@ -173,7 +173,7 @@ def _uncertain(judged: SeriesVerdict, confidence: float) -> str:
 
 
 def turns_text(verdict: evaluation.Verdict) -> str:
-    """Return what would turn a verdict: `would fail if sliding counted below 85 % instead of 90 % ...`.
+    """Return what turns a verdict: `would fail if sliding counted below 85 % instead of 90 % ...`.
 
     Empty where nothing does.
     """
@@ -187,7 +187,7 @@ def turns_text(verdict: evaluation.Verdict) -> str:
 
 
 def _turned_by(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> Iterator[str]:
-    """Yield which values of a definition, the nearest ones, change the verdict and to what."""
+    """Yield the nearest values of a definition that change the verdict, with the status there."""
     intervals, unit = sensitivity.intervals, sensitivity.unit
     if any(interval.reading for interval in intervals):
         yield f"turns with its reading ({', '.join(map(str, intervals))})"
@@ -316,7 +316,7 @@ def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] =
         words.append(f"rail_validity={result.rail.test_validity}")
     words += [f"{name}={value:.4g}" for name, value in share_cells(result).items()]
     words += [f"{name}={value:.5g}" for name, value in range_cells(result, _MEASURES[:1]).items()]
-    words += _measures(result)
+    words += _measure_lines(result)
     if differences or not result.met or result.outcome in EXPLAINED:
         outcomes, *more = case_explanation(result, differences, MOST_DIFFERENCES)
         reasons = [line for line in more if line != statement_sentence(result)]
@@ -324,7 +324,7 @@ def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] =
     return " ".join(words)
 
 
-def _measures(result: evaluation.CaseResult) -> Iterator[str]:
+def _measure_lines(result: evaluation.CaseResult) -> Iterator[str]:
     if result.measures is not None:
         yield from (f"{name}={number(result.measures[name])}" for name in _MEASURES)
     if result.wheelsets:
@@ -348,13 +348,13 @@ def criterion_lines(result: evaluation.CaseResult) -> Iterator[str]:
 
 
 def domain_lines(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield what of a case lies outside of what was validated."""
+    """Yield the conditions of a case that lie outside of what was validated."""
     for sentence in domain_sentences(result):
         yield f"outside {printable(result.id)} {sentence.removeprefix('outside ')}"
 
 
 def firmness_lines(result: evaluation.CaseResult | SeriesResult) -> Iterator[str]:
-    """Yield how firm a case or series is."""
+    """Yield the lines on how firm a case or series is."""
     return (f"firmness {printable(result.id)} {sentence}" for sentence in firmness_sentences(result))
 
 
@@ -383,7 +383,7 @@ def series_line(result: SeriesResult) -> str:
 
 
 def series_lines(result: SeriesResult) -> Iterator[str]:
-    """Yield what stands below the line of a series: its criteria, the stops that count and that do not."""
+    """Yield the lines below that of a series: its criteria, the stops that count and that do not."""
     for judged in result.criteria:
         yield f"criterion {printable(result.id)} {series_verdict_sentence(judged, result.confidence)}"
     for sentence in stops_sentences(result):

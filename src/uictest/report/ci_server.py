@@ -44,7 +44,7 @@ def run_suites(content: RunContent, *, with_properties: bool = False) -> Iterato
     """Yield the testcases of a run, in the order of the other reports.
 
     A case that differs from the baseline is a failure; a case of the baseline that is missing and a series
-    that differs have a failed testcase of their own beside the cases. Cases with a controller from outside
+    that differs have a failed testcase of their own besides the cases. Cases with a controller from outside
     have a suite of their own for each such program, whose properties say which it is. A series is a suite of
     its own, with one testcase per criterion. With `with_properties` testcases have those by which Polarion
     and Xray know the test case and its requirements.

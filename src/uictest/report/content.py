@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 CASES_IN_PYTHON: Final = "(cases loaded in Python)"
-"""In a command, behind `run`: a program gave the cases, and no files of their own name them."""
+"""In a command, after `run`: a program gave the cases, and no files of their own name them."""
 _PACKAGES: Final = ("uictest", "numpy", "pydantic", "pyyaml")
 
 
@@ -38,7 +38,7 @@ class RunManifest:
 
     Args:
         schema: version of this form.
-        kind: of the results: `run`.
+        kind: kind of the results: `run`.
         command: the program and its arguments as typed, without the folders of the machine.
         seed: the seed given for all cases; None where each scenario has its own.
         cases: how many cases were selected.
@@ -95,7 +95,7 @@ def run_manifest(
         seed: the seed given for all cases, None where each scenario has its own.
         inputs: every file read -> its SHA-256.
         cases: how many cases were selected.
-        parts: of each case, by role.
+        parts: parts of each case, by role.
     """
     return RunManifest(
         command=("uictest", *(without_machine(word) for word in command)),
@@ -135,7 +135,7 @@ def _versions() -> Mapping[str, str]:
 
 
 Place = Literal["first", "detail", "file"]
-"""Where a table over the stops of a log stands: before the stops, behind them, or in its file alone."""
+"""Where a table over the stops of a log stands: before the stops, after them, or in its file alone."""
 STOPS: Final = "stops"
 """Key of the column that names stops, separated by commas."""
 _MOST_DIGITS: Final = 15
@@ -163,11 +163,11 @@ class CampaignTable:
     """A table over the stops of a log.
 
     Args:
-        name: of its file and its sheet.
+        name: name of its file and its sheet.
         title: what it shows.
         basis: what it rests on, in one sentence.
         place: where it stands.
-        columns: of the rows.
+        columns: columns of the rows.
         rows: a cell for each column; None where there is none, or a number that is not known.
     """
 

@@ -64,7 +64,7 @@ class Difference:
 
 
 def status_difference(case: str, status: StatusChange) -> Difference | None:
-    """Return how an outcome or a verdict differs, None where it is the same on both sides."""
+    """Return the difference of an outcome or a verdict, None where both sides are the same."""
     if status.first == status.second:
         return None
     quantity = f"criterion {status.criterion}" if status.criterion else "outcome"
@@ -82,7 +82,7 @@ def side_text(value: Value) -> str:
 def relative_percent(first: Value, second: Value, unit: str = "") -> float | None:
     """Return by how many per cent of the first side's size the second exceeds it.
 
-    None where a side is no finite number, where the first is 0, and in degC, whose zero is arbitrary.
+    None where a side is not a finite number, where the first is 0, and in degC, whose zero is arbitrary.
     """
     if isinstance(first, str) or isinstance(second, str) or unit == CELSIUS or not first:
         return None
@@ -162,7 +162,7 @@ def wheelset_quantity(measure: str, wheelset: int) -> str:
 def worst_of_wheelsets(differences: Iterable[Difference]) -> list[Difference]:
     """Return the differences, with only the worst wheelset for each measure of wheelsets."""
     columns = {wheelset_quantity(name, n): name for name in measures.WHEELSET_COLUMNS for n in WHEELSETS}
-    # The train may have a measure of the same name, as `adhesion_utilisation`: it is no wheelset.
+    # The train may have a measure of the same name, as `adhesion_utilisation`: it is not of a wheelset.
     groups: dict[tuple[str, str, bool], list[Difference]] = {}
     for difference in differences:
         column = columns.get(difference.quantity)
@@ -230,7 +230,7 @@ class BaselineComparison:
 
     @property
     def beside_cases(self) -> Mapping[str, str]:
-        """What differs and is no case of the run: missing cases, and series; id -> file."""
+        """What differs and is not a case of the run: missing cases, and series; id -> file."""
         return {**self.missing, **self.series}
 
     @property
@@ -292,7 +292,7 @@ def baseline_summary(baseline: BaselineComparison) -> str:
 
 
 def not_compared_sentences(baseline: BaselineComparison) -> Iterator[str]:
-    """Yield which cases and series of the baseline were not compared, and why."""
+    """Yield the cases and series of the baseline that were not compared, with the reason."""
     for ids, reason in ((baseline.not_run, "not run"), (baseline.not_selected, "not selected")):
         if ids:
             yield f"not compared with the baseline: {counted(len(ids), 'case')} {reason} ({listed(ids)})"

@@ -29,7 +29,7 @@ class Evidence(NamedTuple):
 
     Args:
         kind: which of the two.
-        id: of the case or series.
+        id: id of the case or series.
         word: that of the case or series where it names the requirement itself. Otherwise pass, fail, invalid,
             inconclusive, error or not applicable: the verdict of the criteria that name it.
         criteria: ids of these criteria; empty where the case or series names the requirement itself.
@@ -42,7 +42,7 @@ class Evidence(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The id of a case; that of a series, which a case may have as well, behind the word `series`."""
+        """The id of a case; that of a series, which a case may have as well, after the word `series`."""
         return self.id if self.kind == "case" else f"series {self.id}"
 
     @property
@@ -94,7 +94,9 @@ def verified_requirements(
     The stops of a series are figures of it, and no evidence of their own.
     """
     found: dict[str, list[Evidence]] = {}
-    for requirement, evidence in chain(*map(_evidence, results), *map(_evidence, series)):
+    for requirement, evidence in chain(
+        *map(_evidence_by_requirement, results), *map(_evidence_by_requirement, series)
+    ):
         found.setdefault(requirement, []).append(evidence)
     return [VerifiedRequirement(name, tuple(found[name])) for name in scenario.in_order_of_ids(found)]
 
@@ -148,7 +150,7 @@ def _verdicts(result: evaluation.CaseResult | SeriesResult) -> list[evaluation.V
     return [judged.verdict for judged in result.criteria]
 
 
-def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[str, Evidence]]:
+def _evidence_by_requirement(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[str, Evidence]]:
     kind: Literal["case", "series"] = "case" if isinstance(result, evaluation.CaseResult) else "series"
     for requirement in result.requirements:
         yield requirement, Evidence(kind, result.id, outcome_word(result.outcome, met=result.met))
@@ -161,12 +163,12 @@ def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[st
             by_requirement.setdefault(requirement, []).append(verdict)
     for requirement, naming in by_requirement.items():
         # Criteria of a series may have been judged although one of its stops failed to run.
-        word = "error" if result.outcome == "error" else _word(naming, verdicts)
+        word = "error" if result.outcome == "error" else _requirement_word(naming, verdicts)
         yield requirement, Evidence(kind, result.id, word, tuple(verdict.id for verdict in naming))
 
 
-def _word(naming: list[evaluation.Verdict], verdicts: Iterable[evaluation.Verdict]) -> str:
-    """Return what the criteria of one requirement say; what is no test shows nothing met."""
+def _requirement_word(naming: list[evaluation.Verdict], verdicts: Iterable[evaluation.Verdict]) -> str:
+    """Return the word for one requirement by its criteria; a stop that is not a test shows nothing met."""
     of_validity = {
         verdict.status
         for verdict in verdicts

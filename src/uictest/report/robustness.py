@@ -28,7 +28,7 @@ def any_repeated(results: Iterable[CaseResult]) -> bool:
 
 
 def stops_text(result: CaseResult) -> str:
-    """Return how many stops came out as expected, e.g. `pass 6/10`; empty for a case with one stop."""
+    """Return the stops that came out as expected, e.g. `pass 6/10`; empty for a case with one stop."""
     repeats = result.repeats
     if repeats is None:
         return ""
@@ -67,7 +67,7 @@ def repeat_sentences(result: CaseResult) -> Iterator[str]:
 
 
 def _not_shown(required: float, stops: int) -> str:
-    """Return why so many stops do not show the share that they must have."""
+    """Return the reason for which so many stops do not show the share that they must have."""
     share = f"a share of {100 * required:g} %"
     needed = statistics.trials_needed(required)
     if needed is None:
@@ -92,7 +92,7 @@ def drawn_sentence(result: CaseResult) -> str:
 
 
 def band_text(result: CaseResult, stops: int) -> str:
-    """Return what a band of the first `stops` repeats behind the drawn stop spans; empty without a band."""
+    """Return the caption of the band of the first `stops` repeats; empty without a band."""
     if result.repeats is None or not stops:
         return ""
     of_all = len(result.repeats.stops)
@@ -340,7 +340,7 @@ _COLUMNS: Final[Sequence[Column[_Effect]]] = (
 
 
 def firmness_table(judged: Sequence[CaseResult | SeriesResult]) -> Table:
-    """Return what every number does to every criterion of cases and series of which it was asked."""
+    """Return the effect of every number on every criterion of the cases and series studied."""
     rows = [
         _Effect(result.id, number, criterion)
         for result in judged

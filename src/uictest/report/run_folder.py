@@ -65,7 +65,7 @@ def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
 
 
 def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison | None:
-    """Return how the run of a document compared with its baseline; None without one.
+    """Return the comparison of the run of a document with its baseline; None without one.
 
     Raises ValueError where the document holds something else.
     """
@@ -152,7 +152,7 @@ def write_controller_log(folder: Path, case_id: str, text: str) -> str:
 
 
 def read_run(folder: Path) -> RunContent:
-    """Return what a run folder holds, nothing to draw.
+    """Return the content of a run folder, without drawings.
 
     Raises OSError, and ValueError where results.json is not what it should be.
     """
@@ -183,7 +183,7 @@ def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
 
 
 def run_content(document: object, name: str) -> RunContent:
-    """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
+    """Return the content of a results document, without drawings. Raises ValueError where it is none."""
     if not isinstance(document, Mapping):
         raise ValueError(f"expected a JSON object, found {type(document).__name__}")
     try:
@@ -213,7 +213,7 @@ def run_content(document: object, name: str) -> RunContent:
 
 
 def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, PlotTrace]:
-    """Return what there is to draw of the cases that have a recording in the folder, by id.
+    """Return the traces of the cases that have a recording in the folder, by id.
 
     Raises OSError, and ValueError where a recording is none.
     """

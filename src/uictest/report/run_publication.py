@@ -154,7 +154,7 @@ def cases_table(content: RunContent) -> Table:
 
 
 def _deciding(case: _Case) -> _Case | evaluation.RailValidity:
-    """Return what says whether a case is a valid test: its own stop, or that of the bypassed WSP."""
+    """Return the stop that decides whether a case is a valid test: its own, or that of the bypassed WSP."""
     return case.rail if case.rail is not None and case.rail.decides else case
 
 
@@ -243,7 +243,7 @@ def repeats_table(results: Sequence[_Case]) -> Table:
 
 
 def readings_table(results: Sequence[_Case]) -> Table:
-    """Return what criteria that have several readings say by each, for people."""
+    """Return the verdicts by each reading of the criteria that have several, for people."""
     rows = [
         {"case": result.id, "criterion": verdict.id, "reading": sentence}
         for result in results
@@ -299,7 +299,7 @@ def _about(content: RunContent) -> Iterator[str]:
 
 
 def _baseline_sections(content: RunContent) -> list[Table | Lines]:
-    """Return how the run compares with its baseline, with a table of the quantities out of tolerance."""
+    """Return the comparison with the baseline, with a table of the quantities out of tolerance."""
     if content.baseline is None:
         return []
     lines = [baseline_summary(content.baseline), *not_compared_sentences(content.baseline)]

@@ -76,7 +76,7 @@ def value_with_interval(estimate: Estimate | None) -> str:
 
 
 def estimate_words(estimate: Estimate) -> str:
-    """Return how an estimate was made and how sure it is: `mean of 9 stops, 95 % interval 1 .. 2 by ...`."""
+    """Return the method and the confidence of an estimate: `mean of 9 stops, 95 % interval 1 .. 2 by ...`."""
     over = f" over {estimate.dry_stops} dry" if estimate.dry_stops else ""
     made = f"{estimate.method} of {counted(estimate.stops, 'stop')}{over}"
     at = percent(estimate.confidence)
@@ -92,7 +92,7 @@ def estimate_words(estimate: Estimate) -> str:
 
 
 def missing_interval(estimate: Estimate) -> str:
-    """Return why nothing says how sure an estimate is; empty where something does."""
+    """Return the reason for which an estimate has no interval; empty where it has one."""
     at = percent(estimate.confidence)
     if interval(estimate) or math.isfinite(estimate.covered):
         return ""
@@ -106,7 +106,7 @@ def missing_interval(estimate: Estimate) -> str:
 
 
 def confidence_words(judged: SeriesVerdict, confidence: float) -> str:
-    """Return how sure a verdict is, in one clause; empty where nothing was estimated."""
+    """Return the confidence in a verdict, in one clause; empty where nothing was estimated."""
     if judged.kept is not None and judged.stops:
         ends = statistics.proportion_interval(judged.kept, judged.stops, confidence)
         taken = ", the mean of the dry stops taken as known" if judged.of_dry_stop else ""
@@ -138,7 +138,7 @@ def limit_inside(judged: SeriesVerdict, within: str) -> str:
 
 
 def _settled_by(judged: SeriesVerdict) -> Iterator[str]:
-    """Yield how many stops would settle a share of stops that has its least value."""
+    """Yield the number of stops that would settle a share of stops that has its least value."""
     verdict, estimate = judged.verdict, judged.estimate
     if estimate is None or estimate.method != "share" or verdict.lower is None or verdict.status != "pass":
         return
@@ -150,7 +150,7 @@ def _settled_by(judged: SeriesVerdict) -> Iterator[str]:
 
 
 def of_dry_stop(judged: SeriesVerdict) -> str:
-    """Return what stands behind the value of a criterion whose bounds are shares of the dry stop."""
+    """Return the words after the value of a criterion whose bounds are shares of the dry stop."""
     return " of the dry stop" if judged.of_dry_stop else ""
 
 
@@ -187,7 +187,7 @@ def bypassed_is_better(result: SeriesResult) -> str:
 
 
 def _longest_locked(result: SeriesResult) -> Iterator[str]:
-    """Yield how long a wheelset is locked without and with WSP on the rails that were run without."""
+    """Yield the longest locked times without and with WSP, on the rails that were run without it."""
     observed = series.observed_stops(result.cases, result.speed_tolerance_kmh)
     stops = [stop for stop in observed if stop.counts]
     rails = {stop.rail for stop in stops if stop.role == "bypassed"}
@@ -207,18 +207,18 @@ def _longest(stops: Iterable[SeriesStop]) -> float:
 
 
 def not_counted_sentences(result: SeriesResult) -> Iterator[str]:
-    """Yield how many stops do not count, by outcome, each with the first reasons."""
+    """Yield the number of stops that do not count, by outcome, with the first reasons."""
     for outcome, count in Counter(stop.outcome for stop in result.not_counted).items():
         stops = [stop for stop in result.not_counted if stop.outcome == outcome]
         reasons = list(dict.fromkeys(stop.reason for stop in stops))
-        shown = "; ".join(reasons[:_MOST_REASONS])
+        listed = "; ".join(reasons[:_MOST_REASONS])
         if (more := len(reasons) - _MOST_REASONS) > 0:
-            shown += f"; {counted(more, 'more reason')}"
-        yield printable(f"{counted(count, 'stop')} {outcome}, not counted: {shown}")
+            listed += f"; {counted(more, 'more reason')}"
+        yield printable(f"{counted(count, 'stop')} {outcome}, not counted: {listed}")
 
 
 def stops_sentences(result: SeriesResult) -> list[str]:
-    """Return which stops count, and which do not and why."""
+    """Return the sentences on the stops that count, and on those that do not with the reasons."""
     return [*count_sentences(result), *not_counted_sentences(result)]
 
 
@@ -235,7 +235,7 @@ def series_explanation(result: SeriesResult) -> list[str]:
 
 
 def unsettled_of_series(result: SeriesResult) -> list[str]:
-    """Return which verdicts of a strict series and of its cases are not settled, and why."""
+    """Return a line for each unsettled verdict of a strict series and of its cases, with the reason."""
     lines = [
         f"{printable(name)}: {line}"
         for name, verdict in result.unsettled

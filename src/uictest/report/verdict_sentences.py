@@ -68,20 +68,20 @@ def without_checks_that_hold(verdicts: Iterable[evaluation.Verdict]) -> list[eva
 
 
 def check_sentence(verdicts: Iterable[evaluation.Verdict]) -> str:
-    """Return how many checks of the rig or of the record hold, and of the latter which could not be made."""
+    """Return the number of checks of the rig or of the record that hold, and that of checks not made."""
     checks = [verdict for verdict in verdicts if verdict.is_check]
     made = [verdict for verdict in checks if verdict.status != "not_applicable"]
     if not made:
         return ""
     held = sum(verdict.status == "pass" for verdict in made)
-    shown = "all" if held == len(made) else f"{held} of {len(made)}"
+    holding = "all" if held == len(made) else f"{held} of {len(made)}"
     layer, missing = made[0].layer, len(checks) - len(made)
     not_made = f", {missing} not made" if layer == "record" and missing else ""
-    return f"checks of the {layer}: {shown} hold{not_made}"
+    return f"checks of the {layer}: {holding} hold{not_made}"
 
 
 def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
-    """Return which of so many wheelsets miss a criterion: `all 4 wheelsets`, `wheelset 3 only`."""
+    """Return the wheelsets that miss a criterion, of so many: `all 4 wheelsets`, `wheelset 3 only`."""
     if not verdict.missed_by or len(verdict.missed_by) == wheelsets == 1:
         return ""
     if len(verdict.missed_by) == wheelsets:
@@ -107,14 +107,14 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
     `instants` says when the values of criteria, by their ids, were taken.
     """
     instants = instants or {}
-    deciding = sorted(_deciding(result), key=lambda verdict: not verdict.is_check)
+    deciding = sorted(_deciding_verdicts(result), key=lambda verdict: not verdict.is_check)
     lines = {verdict.id: verdict_sentence(verdict) for verdict in deciding}
     # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
     # without any it is all there is.
     alone = not deciding or result.outcome == "error"
     outcome, verdicts = evaluation.deciding_verdicts(result.decided)
     if outcome != result.outcome:  # as over the stops of a repeated case
-        verdicts = list(_deciding(result))
+        verdicts = list(_deciding_verdicts(result))
     missed = [
         missed_sentence(verdict, instants.get(verdict.id, ""))
         for verdict in verdicts
@@ -133,7 +133,7 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
     ]
 
 
-def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
+def _deciding_verdicts(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
     """Yield the criteria that fail, and those of an undecided or skipped stop that say why it is."""
     for verdict in result.criteria:
         undecided = verdict.status == "inconclusive" and result.outcome == "inconclusive"
@@ -142,7 +142,7 @@ def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
 
 
 def missed_sentence(verdict: evaluation.Verdict, at: str = "") -> str:
-    """Return what is missed, by which value, against which limit: `locked-wheels 62 s, upper limit 1 s`.
+    """Return a missed criterion with its value and limit: `locked-wheels 62 s, upper limit 1 s`.
 
     `at` says when the value was taken.
     """
@@ -164,7 +164,7 @@ def statement_sentence(result: evaluation.CaseResult) -> str:
 
 
 def allowed_sentences(results: Iterable[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield what was missed and allowed: `allowed: low-adhesion-80: locked-wheels 62 s, upper limit 1 s`."""
+    """Yield the allowed misses: `allowed: low-adhesion-80: locked-wheels 62 s, upper limit 1 s`."""
     for result in results:
         if result.allowed:
             missed = "; ".join(map(missed_sentence, result.allowed))
@@ -172,7 +172,7 @@ def allowed_sentences(results: Iterable[evaluation.CaseResult]) -> Iterator[str]
 
 
 def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]:
-    """Yield why verdicts are not settled: inconclusive, or the definitions within whose range they turn."""
+    """Yield the reasons for unsettled verdicts: inconclusive, or turning within the range of a definition."""
     for verdict in verdicts:
         if verdict.status == "inconclusive":
             yield verdict_sentence(verdict)
@@ -185,14 +185,14 @@ def outcome_sentence(result: evaluation.CaseResult | SeriesResult, deciding: Seq
     """Return the outcome with what decided it: `fail: locked-wheels 2 s, upper limit 1 s. Expected: pass`."""
     by = printable("; ".join(deciding))
     unsettled = bool(result.unsettled) or result.lacks_firmness
-    shown = f"{result.outcome}{', unsettled' if unsettled else ''}{f': {by}' if by else ''}"
+    outcome = f"{result.outcome}{', unsettled' if unsettled else ''}{f': {by}' if by else ''}"
     expected = printable(str(result.expect))
     if result.met:
-        return f"{shown} ({'allowed' if result_word(result) in ALLOWED else 'as expected'})"
+        return f"{outcome} ({'allowed' if result_word(result) in ALLOWED else 'as expected'})"
     if result.as_expected and not unsettled:
         lacks = "names no criterion" if result.expect.lacks_names else "is an allowance"
-        return f"{shown}. Strict, and the expectation {lacks}: {expected}"
-    return f"{shown}. Expected: {expected}"
+        return f"{outcome}. Strict, and the expectation {lacks}: {expected}"
+    return f"{outcome}. Expected: {expected}"
 
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
@@ -210,7 +210,7 @@ def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
 
 
 def reading_sentences(verdict: evaluation.Verdict) -> list[str]:
-    """Return what a criterion says by each of its readings, e.g. `depth fail: 14.2 % (above 30 km/h) ...`."""
+    """Return the verdict by each reading of a criterion, e.g. `depth fail: 14.2 % (above 30 km/h) ...`."""
     return [
         printable(
             f"{reading.id}{' (decides)' if reading.decides else ''} {reading.status.replace('_', ' ')}: "
@@ -221,7 +221,7 @@ def reading_sentences(verdict: evaluation.Verdict) -> list[str]:
 
 
 def reading_sources(verdict: evaluation.Verdict) -> dict[str, str]:
-    """Return where each further reading of a criterion comes from, and its definitions."""
+    """Return the source and the definitions of each further reading of a criterion."""
     sources = {}
     for reading in verdict.readings:
         if not reading.decides:
@@ -232,7 +232,7 @@ def reading_sources(verdict: evaluation.Verdict) -> dict[str, str]:
 
 
 def real_time_sentences(result: evaluation.CaseResult) -> list[str]:
-    """Return how the controller answered in a stop that was paced by the clock, nothing for others."""
+    """Return the response times of the controller in a stop paced by the clock, nothing for others."""
     times = result.response_times
     if times is None:
         return []
@@ -256,44 +256,44 @@ def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = 
     counts = {word: words.count(word) for word in CASE_WORDS}
     counted_words = counts_text(counts, sum(not result.met for result in results))
     allowed = list(allowed_sentences(results))
-    more = [f"{len(allowed) - NAMED} more allowed"] if len(allowed) > NAMED else []
-    return "; ".join([f"{counted(len(words), 'case')}: {counted_words}", *allowed[:NAMED], *more])
+    not_named = [f"{len(allowed) - NAMED} more allowed"] if len(allowed) > NAMED else []
+    return "; ".join([f"{counted(len(words), 'case')}: {counted_words}", *allowed[:NAMED], *not_named])
 
 
 def counts_text(counts: Mapping[str, int], not_met: int) -> str:
     """Return counts of cases by word, those of none left out, and how many do not meet their expectation."""
     labels = {DIFFERS: "different from the baseline"}
-    shown = ", ".join(f"{count} {labels.get(word, word)}" for word, count in counts.items() if count)
-    return f"{shown}; {not_met} not as expected" if not_met else shown
+    counts_by_word = ", ".join(f"{count} {labels.get(word, word)}" for word, count in counts.items() if count)
+    return f"{counts_by_word}; {not_met} not as expected" if not_met else counts_by_word
 
 
 _BYPASSED: Final = "WSP bypassed: the controller did not act, the stop says nothing about it"
 
 
 def cause_sentences(result: evaluation.CaseResult) -> list[str]:
-    """Return what was done to a stop that explains its outcome."""
+    """Return the causes of an outcome that lie in the stop: faults, a bypassed WSP, the rail."""
     bypassed = [_BYPASSED] if is_bypassed(result.parts) else []
     parameters = [parameter for part in result.parts.values() for parameter in part.parameters]
     return [*fault_sentences(parameters), *bypassed, *rail_sentences(result)]
 
 
 def rail_sentences(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield why a stop is no test by what its WSP made of it, and what the rail itself is."""
+    """Yield the reason for which the stop is not a test, and the validity of the rail itself."""
     if (rail := result.rail) is None:
         return
     failed = [
         verdict for verdict in result.criteria if verdict.layer == "validity" and verdict.status == "fail"
     ]
-    by_itself = f"does not count as a test by the stop itself: {', '.join(map(_valued, failed))}; "
-    of_rail = [_valued(verdict) for verdict in rail.criteria if verdict.value is not None]
-    found = ", ".join([*of_rail, *(["wheels lock"] if rail.wheels_lock else [])])
+    by_itself = f"does not count as a test by the stop itself: {', '.join(map(_value_with_limit, failed))}; "
+    of_rail = [_value_with_limit(verdict) for verdict in rail.criteria if verdict.value is not None]
+    observations = ", ".join([*of_rail, *(["wheels lock"] if rail.wheels_lock else [])])
     which = f"the rail itself (WSP bypassed{', which decides' if rail.decides else ''})"
     validity = rail.test_validity.replace("_", " ")
-    of_the_rail = f"{which} is {validity}: {found}; friction as found {rail.friction}"
+    of_the_rail = f"{which} is {validity}: {observations}; friction as found {rail.friction}"
     yield printable(f"{by_itself if failed else ''}{of_the_rail}")
 
 
-def _valued(verdict: evaluation.Verdict) -> str:
+def _value_with_limit(verdict: evaluation.Verdict) -> str:
     """Return the value of a criterion with its limit: `initial-adhesion 0.0851 g (< 0.08)`."""
     value = "-" if verdict.value is None else f"{verdict.value:.3g} {verdict.unit}"
     limit = verdict.upper if verdict.lower is None else verdict.lower

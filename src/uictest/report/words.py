@@ -66,7 +66,7 @@ def workflow_property(text: str) -> str:
 
 def no_command(line: str) -> str:
     """Return a line of the log as one that GitHub does not take for a command, whatever it contains."""
-    # The runner looks behind leading blanks, and for commands of its first kind anywhere in a line.
+    # The runner looks after leading blanks, and for commands of its first kind anywhere in a line.
     return _COMMAND.sub(r"\1\\x3a", line).replace("##[", r"#\x23[")
 
 
@@ -115,7 +115,7 @@ class MeasureHeading(NamedTuple):
 
 
 def measure_heading(name: str) -> MeasureHeading:
-    """Return how a column is shown: a measure in words with its unit, others under their name.
+    """Return the heading of a column: a measure in words with its unit, others under their name.
 
     The number of a wheelset (`..._3`) may follow the name of a measure.
     """

@@ -55,13 +55,13 @@ SECTIONS: Final = {
 
 
 class Assignment(NamedTuple):
-    """A function that sets some fields of a record, and what of a scenario it is given besides the record."""
+    """A function that sets some fields of a record, and its arguments after the record, from a scenario."""
 
     function: Callable[..., None]
     arguments: tuple[Callable[[Scenario], Any], ...]
 
     def given(self, scenario: Scenario) -> list[Any]:
-        """Return what the function is given of a scenario."""
+        """Return the arguments of the function from a scenario."""
         return [argument(scenario) for argument in self.arguments]
 
 
@@ -115,10 +115,10 @@ def _set_faults(p: Parameters, faults: tuple[Fault, ...], time_step: float, cycl
     kinds = [FAULT_KINDS[fault.part, fault.kind] for fault in faults]
     p.fault_count = len(faults)
     p.has_leaks = float(any(fault.effects.tank_leak + fault.effects.line_leak > 0.0 for fault in faults))
-    p.fault_begin_time, p.fault_begin_speed, p.fault_begin_distance = _reached(
+    p.fault_begin_time, p.fault_begin_speed, p.fault_begin_distance = _tables_of_instants(
         [fault.at for fault in faults], step
     )
-    p.fault_end_time, p.fault_end_speed, p.fault_end_distance = _reached(
+    p.fault_end_time, p.fault_end_speed, p.fault_end_distance = _tables_of_instants(
         [fault.until for fault in faults], step
     )
     p.fault_wheelset = [*(float((fault.wheelset or 1) - 1) for fault in faults), *blank]
@@ -136,7 +136,7 @@ def _set_faults(p: Parameters, faults: tuple[Fault, ...], time_step: float, cycl
     ]
 
 
-def _reached(instants: Sequence[Quantity | None], step: float) -> Iterator[list[float]]:
+def _tables_of_instants(instants: Sequence[Quantity | None], step: float) -> Iterator[list[float]]:
     """Yield tables of the times, speeds and distances that are reached together at each instant.
 
     Without an instant, and beyond the last fault, never. Times are half a step early: what they are compared
@@ -228,7 +228,7 @@ def parameter_record(scenario: Scenario) -> NDArray[Any]:
 
 
 def assemble(case: Case) -> StopInputs:
-    """Return what the rig is given for the stop of a case.
+    """Return the inputs of the rig for the stop of a case.
 
     Raises ValueError where its compensation is still to be identified, see `uictest.rig.bench.identified`,
     and for a car of a train, which does not run alone.
@@ -278,7 +278,7 @@ def case_sha256(
 
 
 def controller_config(parameters: Any, wheelset_parameters: Any, program: ControllerProgram) -> Config:
-    """Return what a controller from outside is given before a stop with these records."""
+    """Return the configuration of a controller from outside for a stop with these records."""
     radii = wheelset_parameters["configured_radius"].tolist()
     cycle_time, initial_speed = float(parameters["cycle_time"]), float(parameters["initial_speed"])
     return Config(len(radii), cycle_time, initial_speed, tuple(radii), json.loads(program.parameters))

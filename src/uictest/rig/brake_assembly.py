@@ -208,16 +208,16 @@ def set_pad(p: Parameters, pad: Pad) -> None:
     """Set the factors of the pad friction over speed, force and temperature."""
     speed, force, temperature = (law or PadLaw() for law in (pad.speed, pad.force, pad.temperature))
     p.varies_pad_friction = float(pad.varies)
-    p.pad_speed_points, p.pad_speeds, p.pad_speed_factors = _table(speed)
-    p.pad_force_points, p.pad_forces, p.pad_force_factors = _table(force)
-    p.pad_temperature_points, p.pad_temperatures, p.pad_temperature_factors = _table(temperature)
+    p.pad_speed_points, p.pad_speeds, p.pad_speed_factors = _padded_table(speed)
+    p.pad_force_points, p.pad_forces, p.pad_force_factors = _padded_table(force)
+    p.pad_temperature_points, p.pad_temperatures, p.pad_temperature_factors = _padded_table(temperature)
     p.pad_speed_scale = quotient_scale(*speed.quotient)
     p.pad_force_scale = quotient_scale(*force.quotient)
     _, p.pad_speed_numerator, p.pad_speed_denominator = speed.quotient
     _, p.pad_force_numerator, p.pad_force_denominator = force.quotient
 
 
-def _table(law: PadLaw) -> tuple[int, list[float], list[float]]:
+def _padded_table(law: PadLaw) -> tuple[int, list[float], list[float]]:
     """Return number, arguments and factors of the points of a table, as long as the record's tables."""
     arguments, factors = zip(*law.table, strict=True)
     blank = [0.0] * (MOST_PAD_POINTS - len(arguments))
@@ -259,16 +259,16 @@ def set_motors(p: Parameters, motors: DynamicBrake | None, cycle_time: float) ->
     p.motor_forces = p.motor_powers = [0.0] * len(WHEELSET_NUMBERS)
     p.fade_end = p.fade_rate = p.motor_response = 0.0
     if motors is not None:
-        p.motor_forces = _shares(float(motors.force), motors)
-        p.motor_powers = _shares(float(motors.power), motors)
+        p.motor_forces = _shares_of_wheelsets(float(motors.force), motors)
+        p.motor_powers = _shares_of_wheelsets(float(motors.power), motors)
         begin, p.fade_end = map(float, motors.fade_out)
         p.fade_rate = 1.0 / (begin - p.fade_end)
         cycles = float(motors.response_time) / float(cycle_time)
         p.motor_response = -math.expm1(-1.0 / cycles)
 
 
-def _shares(whole: float, motors: DynamicBrake) -> list[float]:
-    """Return what each wheelset has of what the motored ones share."""
+def _shares_of_wheelsets(whole: float, motors: DynamicBrake) -> list[float]:
+    """Return the share of each wheelset in a total that the motored ones share."""
     share = whole / len(motors.wheelsets)
     return [share if number in motors.wheelsets else 0.0 for number in WHEELSET_NUMBERS]
 

@@ -21,7 +21,7 @@ _OF_CAR: Final = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 _BLOCKS: Final = (*_OF_CAR, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 """Records of each car in a lane, besides what it keeps of a controller cycle."""
 _BRAKED_ADHESION, _LEAST_ADHESION = 0.12, 0.01
-"""What full service uses of a better rail, and the least that a rail is taken to have; chosen."""
+"""Adhesion that full service uses on a better rail, and least adhesion that is assumed; chosen."""
 
 
 class BatchMeasures(NamedTuple):
@@ -99,7 +99,7 @@ def run_trains_in_lanes(trains: Sequence[TrainInputs], width: int | None = None)
     done: dict[int, TrainMeasures] = {}
     for kind in sorted(set(kinds)):
         numbers = [number for number, other in enumerate(kinds) if other == kind]
-        batch = _batch([trains[number] for number in numbers])
+        batch = _trains_in_arrays([trains[number] for number in numbers])
         _run_queue(batch, np.arange(len(numbers)), width)
         note_track_brakes_beside(batch.measures)
         for k, number in enumerate(numbers):
@@ -109,7 +109,7 @@ def run_trains_in_lanes(trains: Sequence[TrainInputs], width: int | None = None)
     return [done[number] for number in range(len(trains))]
 
 
-def _batch(trains: Sequence[TrainInputs]) -> Trains:
+def _trains_in_arrays(trains: Sequence[TrainInputs]) -> Trains:
     cars, points = len(trains[0].parameters), max(train.rail.shape[-1] for train in trains)
     rail = np.zeros((len(trains), ROWS, points))
     for k, train in enumerate(trains):
@@ -132,7 +132,9 @@ def _run_queue(trains: Trains, numbers: NDArray[np.int64], width: int | None) ->
     cars, steps = len(trains.parameters), int(trains.parameters["steps_per_cycle"][0, order[0]])
     blank = Blank(*(np.zeros(number, layout) for layout, number in _OF_CAR))
     running, memories = np.empty(width, np.int64), np.empty((cars, width), RAIL_MEMORY)
-    _compiled_queue(width)(Queue(_blocks(cars, steps, width), blank, trains, order, running, memories))
+    _compiled_queue(width)(
+        Queue(_blocks_of_lanes(cars, steps, width), blank, trains, order, running, memories)
+    )
 
 
 def _longest_first(
@@ -147,7 +149,7 @@ def _longest_first(
     return cases[np.argsort(-expected, kind="stable")]
 
 
-def _blocks(cars: int, steps: int, width: int) -> Lanes:
+def _blocks_of_lanes(cars: int, steps: int, width: int) -> Lanes:
     counts = [(layout, cars * number) for layout, number in _BLOCKS]
     counts += [(MODULE_STEP, 4 * cars * steps), (COUPLER, cars - 1)]
     return Lanes(*(block(layout, width, count) for layout, count in counts))

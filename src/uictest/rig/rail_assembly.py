@@ -183,7 +183,7 @@ _DIGITS_OF_FIT: Final = 9
 def highest_creep_law(condition: RailCondition | CreepCurve) -> tuple[float, tuple[float, ...]]:
     """Return the scale B / u1^2 in s/m and the coefficients, lowest power first."""
     law = condition.friction_ratio, condition.reduction_adhesion, condition.reduction_slip
-    end, *coefficients = _fitted(*map(float, law))
+    end, *coefficients = _fitted_coefficients(*map(float, law))
     return condition.friction_decay / end**2, tuple(coefficients)
 
 
@@ -217,7 +217,7 @@ def highest_creep_forces(
 
 
 @cache
-def _fitted(ratio: float, reduction_adhesion: float, reduction_slip: float) -> tuple[float, ...]:
+def _fitted_coefficients(ratio: float, reduction_adhesion: float, reduction_slip: float) -> tuple[float, ...]:
     """Return u1, then the coefficients.
 
     Args:
@@ -226,7 +226,7 @@ def _fitted(ratio: float, reduction_adhesion: float, reduction_slip: float) -> t
         reduction_slip: kS.
     """
     law = (ratio, reduction_adhesion, reduction_slip)
-    end = round(_end(*law), _DIGITS_OF_FIT)
+    end = round(_end_of_fit(*law), _DIGITS_OF_FIT)
     shares = 0.5 - 0.5 * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
     highest = highest_shares(end * shares, *law)
     fitted = np.polynomial.Chebyshev.fit(shares, highest, FITTED_TERMS - 1, domain=[0.0, 1.0])
@@ -254,7 +254,7 @@ def highest_shares(
     return highest
 
 
-def _end(ratio: float, reduction_adhesion: float, reduction_slip: float) -> float:
+def _end_of_fit(ratio: float, reduction_adhesion: float, reduction_slip: float) -> float:
     low, high = _NARROWEST, _WIDEST
     for _ in range(_HALVINGS):
         middle = (low * high) ** 0.5

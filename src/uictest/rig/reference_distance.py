@@ -50,7 +50,7 @@ def reference_distances(
 def run_in_lanes(
     parameters: NDArray[Any], wheelset_parameters: NDArray[Any], rail: NDArray[np.float64]
 ) -> "BatchMeasures":
-    """Return what :func:`uictest.rig.lanes.run_in_lanes` does, with the reference distances."""
+    """Return the results of :func:`uictest.rig.lanes.run_in_lanes` with the reference distances."""
     from uictest.rig import lanes  # a single stop does not load them
 
     batch = lanes.run_in_lanes(parameters, wheelset_parameters, rail)

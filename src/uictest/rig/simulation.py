@@ -180,18 +180,18 @@ def run_coupled(
 
 def sha256_of_case(case: Case) -> str:
     """Return the SHA-256 that a controller from outside is given with a case; empty if it is built in."""
-    config = assemble(case).config if case.train is None else _inputs_of([case]).configs[_place(case)]
+    config = assemble(case).config if case.train is None else _inputs_of([case]).configs[_car_index(case)]
     return "" if config is None else config.case_sha256
 
 
 def _inputs_of(cases: Sequence[Case]) -> TrainInputs:
     cars = list(cases[0].cars)
     for case in cases:
-        cars[_place(case)] = replace(case, train=None)  # as if it ran alone
+        cars[_car_index(case)] = replace(case, train=None)  # as if it ran alone
     return assemble_train(cars, coupling_of(cars[0].scenario))
 
 
-def _place(case: Case) -> int:
+def _car_index(case: Case) -> int:
     assert case.train is not None
     return case.train.number - 1
 
@@ -207,7 +207,7 @@ def _stops_of_train(
     peaks = peaks_beside(couplers)
 
     def of_car(case: Case) -> SimulatedStop:
-        index = _place(case)
+        index = _car_index(case)
         stop = _stop_of_car(case, finished[index], inputs.configs[index], recorded=recorded)
         return replace(
             stop,
@@ -269,10 +269,10 @@ def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool)
             if name not in missing:
                 channels[f"{name}_{i + 1}"] = wheelsets[name][:, i].copy()
                 units[f"{name}_{i + 1}"] = unit
-    return Recording(channels, units, _facts(case, finished))
+    return Recording(channels, units, _facts_of_recording(case, finished))
 
 
-def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
+def _facts_of_recording(case: Case, finished: FinishedStop) -> dict[str, str]:
     """Return the metadata of a recording; the instant of the first sliding is more exact than the samples."""
     facts = {ORIGIN: "simulated stop", "case": case.id, BRAKE_COMMAND_TIME: "0 s"}
     if math.isfinite(finished.measures.sliding_time):

@@ -118,6 +118,6 @@ class SteppedTrain:
         self._rows = self._step(*self._arguments, self._rows)
 
     def finished(self) -> tuple[FinishedStop, ...]:
-        """Return what the stop of each car leaves, which must have ended."""
+        """Return the finished stop of each car; all must have ended."""
         measures: Any = self.memory["measures"].copy()
         return finished_cars(self._train._replace(measures=measures), self._trace, self._rows)

@@ -18,13 +18,13 @@ from uictest.rig.rail_assembly import sand_grid
 from uictest.rig.train_stop import StopInputs, TrainInputs
 
 _SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "seed", "cycles")
-"""What all cars of a train have in common."""
+"""Fields that all cars of a train have in common."""
 _KEY_STEP: Final = 0x9E3779B1
 """Between the noise keys of neighbours, so that equal cars differ in noise; the first keeps its own."""
 
 
 class Coupling(NamedTuple):
-    """How the cars of a train hang together.
+    """Couplers and brake pipe between the cars of a train.
 
     Attributes:
         distance: between the centres of neighbouring cars, m.
@@ -42,7 +42,7 @@ class Coupling(NamedTuple):
 
 
 def coupling_of(scenario: Scenario) -> Coupling:
-    """Return what the scenario of any car says of its train."""
+    """Return the coupling of a train from the scenario of any of its cars."""
     coupler, line = scenario.coupler or Coupler(), scenario.brake.transmission
     return Coupling(
         float(coupler.distance),
@@ -81,7 +81,7 @@ def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
 
 
 def _configs(train: TrainInputs) -> tuple[Config | None, ...]:
-    """Return what controllers from outside are given: their stop is named by all that decides the train's.
+    """Return the configurations of controllers from outside; the digest in them covers the whole train.
 
     The SHA-256 is that of the bytes of all records, of the car's index, of the parameters of its program, and
     of the whole programs of the others: as for a car alone, another version of its own has the same stop.

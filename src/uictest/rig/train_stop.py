@@ -19,7 +19,7 @@ from uictest.rig.stops import RunTrain
 
 
 class StopInputs(NamedTuple):
-    """What the rig is given for one stop of a car alone.
+    """Inputs of the rig for one stop of a car alone.
 
     Attributes:
         parameters: record of :data:`~uictest.rig.model.parameters.PARAMETERS`.
@@ -49,7 +49,7 @@ def stacked(stops: Sequence[StopInputs]) -> tuple[NDArray[Any], NDArray[Any], ND
 
 
 class TrainInputs(NamedTuple):
-    """What the rig is given for one stop of a train of n cars.
+    """Inputs of the rig for one stop of a train of n cars.
 
     Attributes:
         parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
@@ -85,7 +85,7 @@ def alone(inputs: StopInputs) -> TrainInputs:
 
 @dataclass(frozen=True)
 class FinishedStop:
-    """What a stop leaves of a car: its measures, the final state and, if requested, the trace.
+    """Results of a stop of one car: its measures, the final state and, if requested, the trace.
 
     Of a controller from outside also the version that it names, how it answered if cycles were paced by the
     clock, the version of the contract, and what it printed, where that is kept.
@@ -157,7 +157,7 @@ def empty_trace(cars: int, rows: int) -> Trace:
 
 
 def finished_cars(train: TrainRecords, trace: Trace, rows: int) -> tuple[FinishedStop, ...]:
-    """Return what the stop of a train leaves of each car; its measures are changed.
+    """Return the finished stop of each car of a train; changes its measures in place.
 
     Args:
         train: records of a stop that has ended.

@@ -29,10 +29,10 @@ class Batch(NamedTuple):
 
     Args:
         cases: to run.
-        series: to run behind the cases; each counts as one for `maxfail`.
-        manifest: of the run.
+        series: series to run after the cases; each counts as one for `maxfail`.
+        manifest: manifest of the run.
         subjects: descriptions of all cases, those of series too, by id.
-        settings: of all cases.
+        settings: settings of all cases.
         baseline: to compare with, if any.
         drawn_first: ids of the cases whose stops a page draws before all others.
         judge: returns what a recorded case came to; None where cases are simulated.
@@ -64,7 +64,7 @@ class Batch(NamedTuple):
         *,
         interrupted: bool = False,
     ) -> report.RunContent:
-        """Return what reports show of results of the cases and series, but for traces and the baseline."""
+        """Return the content of reports on the cases and series, without traces and the baseline."""
         return report.RunContent(
             *(name, results, self.manifest),
             complete=not interrupted and (len(results), len(judged)) == (len(self.cases), len(self.series)),
@@ -96,10 +96,10 @@ def batch_of(
 
     Args:
         cases: to run.
-        planned: series to run behind them.
-        arguments: of the command line, which selects these.
-        seed: that the command line gives to every case.
-        settings: of the run; their parts and domains are found here.
+        planned: series to run after them.
+        arguments: arguments of the command line, which selects these.
+        seed: seed that the command line gives to every case.
+        settings: settings of the run; their parts and domains are found here.
         validated: the validation that says whether each case lies in its domain, in place of those that cases
             name.
         baseline: to compare with.
@@ -146,7 +146,7 @@ def run_batch(
     Args:
         batch: to run.
         observer: is called in this thread.
-        name: of the run.
+        name: name of the run.
         draws_stops: whether a report will draw stops.
         keep: takes the recordings of cases.
     """
@@ -330,17 +330,17 @@ class TraceCollection:
         self, results: Sequence[evaluation.CaseResult], jobs: int, *, interrupted: bool
     ) -> dict[str, report.PlotTrace]:
         """Return the traces; simulate the drawn cases of a large batch again, unless it was interrupted."""
-        drawn = _drawn(results, self.drawn_first)
+        drawn = _drawn_cases(results, self.drawn_first)
         if not self.repeatable:
             self.traces = {name: trace for name, trace in self.traces.items() if name in drawn}
         if self.needed and not self._while_running and not interrupted:
-            every = _interval(self.cases, self.request.every)
+            every = _drawing_interval(self.cases, self.request.every)
             self.traces |= _simulated_again(self.cases, drawn, every, jobs)
         return self.traces
 
     @property
     def _while_running(self) -> bool:
-        small_and_fine = len(self.cases) <= report.DRAWN and self.request.every <= _interval(
+        small_and_fine = len(self.cases) <= report.DRAWN and self.request.every <= _drawing_interval(
             self.cases, self.request.every
         )
         return self.needed and (small_and_fine or self.recorded or not self.repeatable)
@@ -358,13 +358,13 @@ def with_traces(
 
     Args:
         content: what reports show of the run.
-        cases: of the run.
-        recordings: of some of them, by id.
+        cases: cases of the run.
+        recordings: recordings of some of them, by id.
         every: the interval of these, s.
     """
-    drawn = _drawn(content.all_results, content.drawn_first)
+    drawn = _drawn_cases(content.all_results, content.drawn_first)
     if cases and are_repeatable(cases):
-        traces = _simulated_again(cases, drawn, _interval(cases, every), available_processors())
+        traces = _simulated_again(cases, drawn, _drawing_interval(cases, every), available_processors())
     else:
         traces = {
             name: report.trace_of_stop(recordings[name], result)
@@ -379,7 +379,7 @@ def are_repeatable(cases: Sequence[scenario.Case]) -> bool:
     return not any(case.is_from_outside for case in cases)
 
 
-def _drawn(
+def _drawn_cases(
     results: Sequence[evaluation.CaseResult], drawn_first: Collection[str]
 ) -> dict[str, evaluation.CaseResult]:
     """Return the cases that a page draws, by id."""
@@ -387,7 +387,7 @@ def _drawn(
     return {result.id: result for result in report.drawn_cases(stopped, drawn_first)}
 
 
-def _interval(cases: Sequence[scenario.Case], every: float) -> float:
+def _drawing_interval(cases: Sequence[scenario.Case], every: float) -> float:
     """Return the time between two samples of what is drawn, s."""
     return min(every, campaign.shortest_cycle(cases))
 

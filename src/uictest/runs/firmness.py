@@ -52,17 +52,17 @@ class FirmnessRun:
     keeps: bool = True  # the stops of that; those of a series would fill the memory
 
     def of_case(self, case: scenario.Case) -> Firmness:
-        """Return how firm the verdicts of a case are; of a repeated one, those of its stops one by one."""
+        """Return the firmness of the verdicts of a case; of a repeated one, those of its stops one by one."""
         stops = _VariedStops.of(campaign.Stop(case).alone, self, survey=True)
 
         def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
             results = stops.results(dict(zip(stops.numbers, columns, strict=True)), seeds)
             return [drawn(result.outcome, result.decided) for [result] in results]
 
-        return self._study([stops], stops.numbers, judge, case.scenario.judged_by)
+        return self._study_stops([stops], stops.numbers, judge, case.scenario.judged_by)
 
     def of_series(self, planned: series_plans.Series) -> Firmness:
-        """Return how firm the verdicts of a series are; a number that several of its cases have is one."""
+        """Return the firmness of the verdicts of a series; a number that several of its cases have is one."""
         cases = [_VariedStops.of(case, replace(self, keeps=False, trains={})) for case in planned.cases]
         numbers = {identity: number for case in cases for identity, number in case.numbers.items()}
 
@@ -72,12 +72,12 @@ class FirmnessRun:
                 rows = np.arange(first, min(first + _TOGETHER, len(seeds)))
                 taken = {key: column.take(rows) for key, column in zip(numbers, columns, strict=True)}
                 of_cases = [case.results(taken, seeds[first : first + rows.size]) for case in cases]
-                verdicts += [_judged(planned, stops) for stops in zip(*of_cases, strict=True)]
+                verdicts += [_judged_series(planned, stops) for stops in zip(*of_cases, strict=True)]
             return verdicts
 
-        return self._study(cases, numbers, judge, planned.file.criteria)
+        return self._study_stops(cases, numbers, judge, planned.file.criteria)
 
-    def _study(
+    def _study_stops(
         self,
         cases: Sequence[_VariedStops],
         numbers: Mapping[_Identity, RangedNumber],
@@ -90,7 +90,7 @@ class FirmnessRun:
             for criterion in profile.criteria
             if criterion.layer == "validity"
         )
-        hold = self._hold(numbers) if self.calibration else None
+        hold = self._calibration_check(numbers) if self.calibration else None
         random_rail = any(stops.case.scenario.rail.variation_in_force for stops in cases)
         repeats = sum(stops.case.scenario.repeat for stops in cases)
         study = FirmnessStudy(
@@ -106,8 +106,8 @@ class FirmnessRun:
             ],
         )
 
-    def _hold(self, numbers: Mapping[_Identity, RangedNumber]) -> HoldDraws:
-        """Return what says whether all calibrating stops come to what they expect under draws.
+    def _calibration_check(self, numbers: Mapping[_Identity, RangedNumber]) -> HoldDraws:
+        """Return the check whether all calibrating stops come to what they expect under draws.
 
         Raises InvalidInputError for a stop that has none of the numbers.
         """
@@ -167,7 +167,7 @@ class _VariedStops:
         """Return for each row of the columns the results of the stops, one for each repeat of the case.
 
         A number without a column is nominal.
-        A seed counts from that of the case, in steps of its repeats, and goes on from 0 behind the largest.
+        A seed counts from that of the case, in steps of its repeats, and goes on from 0 after the largest.
         """
         resolved = self.case.scenario
         repeat = resolved.repeat
@@ -197,7 +197,7 @@ class _VariedStops:
 
 
 def _numbers_of(case: scenario.Case) -> dict[_Identity, RangedNumber]:
-    return {_identity(number): number for number in sweeps.ranged_numbers(case.scenario)}
+    return {_number_identity(number): number for number in sweeps.ranged_numbers(case.scenario)}
 
 
 def _varied_car(
@@ -228,19 +228,19 @@ def _on_four_calipers(stated: scenario.Scenario) -> scenario.Scenario:
     return stated.model_copy(update={"rig": four})
 
 
-def _identity(number: RangedNumber) -> _Identity:
+def _number_identity(number: RangedNumber) -> _Identity:
     low, high = number.ends
     return number.key, number.value.text, low.text, high.text
 
 
-def _judged(planned: series_plans.Series, stops: Sequence[Sequence[CaseResult]]) -> Drawn:
+def _judged_series(planned: series_plans.Series, stops: Sequence[Sequence[CaseResult]]) -> Drawn:
     """Return the verdicts of a series on the stops of its cases."""
-    results = [_repeated(case, of_case) for case, of_case in zip(planned.cases, stops, strict=True)]
+    results = [_repeated_case(case, of_case) for case, of_case in zip(planned.cases, stops, strict=True)]
     result = judging_series.judge_results(planned, results)
     return drawn(result.outcome, [criterion.verdict for criterion in result.criteria])
 
 
-def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
+def _repeated_case(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
     """Return a case that holds some stops, for a series, which looks at these alone."""
     repeats = tuple(
         RepeatedStop(k, stop.outcome, stop.reason, stop.criteria, stop.measures, stop.wheelsets)
@@ -250,13 +250,13 @@ def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
 
 
 def stops_of_case(case: scenario.Case, settings: campaign.RunSettings) -> int:
-    """Return how many stops are run for a case before turning values are searched."""
+    """Return the number of stops that are run for a case before turning values are searched."""
     numbers = {identity for car in case.cars for identity in _numbers_of(car)}
     return EFFORT.stops(len(numbers)) + _calibrating_stops(settings)
 
 
 def stops_of_series(planned: series_plans.Series, settings: campaign.RunSettings) -> int:
-    """Return how many stops are run for a series before turning values are searched."""
+    """Return the number of stops that are run for a series before turning values are searched."""
     numbers = {identity for case in planned.cases for car in case.cars for identity in _numbers_of(car)}
     stops = EFFORT.stops(len(numbers)) * sum(case.scenario.repeat for case in planned.cases)
     return stops + _calibrating_stops(settings)

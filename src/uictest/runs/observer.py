@@ -68,5 +68,5 @@ def _ignore(finished: int, further: int = 0, /) -> None:
 
 
 def available_processors() -> int:
-    """Return how many processors this process may use, at least 1."""
+    """Return the number of processors that this process may use, at least 1."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

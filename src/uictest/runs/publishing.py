@@ -43,7 +43,7 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
     cannot be written, and removes those that were.
     """
     # The folder comes first: if it cannot be written, nothing should be simulated.
-    with _folder(output, batch.manifest) as folder:
+    with _new_run_folder(output, batch.manifest) as folder:
         recorded = batch.settings.recording._replace(
             keep_output=partial(report.write_controller_log, folder.path)
         )
@@ -56,9 +56,9 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
         )
         if batch.all_cases and not run.content.all_results:
             return None
-        publication = _write(folder.path, run.content, formats)
+        publication = _write_reports(folder.path, run.content, formats)
         place = folder.publish()
-    return Published(place, run.content, publication, run.interrupted, _index(place))
+    return Published(place, run.content, publication, run.interrupted, _update_index(place))
 
 
 def publish_run(
@@ -68,25 +68,25 @@ def publish_run(
     formats: Sequence[str],
 ) -> Published:
     """Write the reports of a run that is finished, and some recordings by id. Raises OSError."""
-    with _folder(output, content.manifest) as folder:
+    with _new_run_folder(output, content.manifest) as folder:
         for case_id, samples in recordings.items():
             report.write_recording(folder.path, case_id, samples)
         named = replace(content, name=folder.name)
-        publication = _write(folder.path, named, formats)
+        publication = _write_reports(folder.path, named, formats)
         place = folder.publish()
-    return Published(place, named, publication, index_problem=_index(place))
+    return Published(place, named, publication, index_problem=_update_index(place))
 
 
-def _index(place: Path) -> str:
+def _update_index(place: Path) -> str:
     """Name the newest run, and renew the list of all; return what was left as it is. Raises OSError."""
     return "; ".join(filter(None, [files.point_latest(place), history.refresh_index(place.parent)]))
 
 
-def _folder(output: Path, manifest: report.RunManifest) -> files.RunFolder:
+def _new_run_folder(output: Path, manifest: report.RunManifest) -> files.RunFolder:
     return files.RunFolder(output, report.run_name(datetime.now(UTC), manifest))
 
 
-def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> report.Publication:
+def _write_reports(folder: Path, content: report.RunContent, formats: Sequence[str]) -> report.Publication:
     publication = report.publication_of_run(content, report.run_texts(content))
     report.publish(publication, (*report.IN_EVERY_RUN, *formats), folder)
     history.write_entry(folder, content)
@@ -105,7 +105,7 @@ def holds_sweep(folder: Path) -> bool:
 
 
 def why_no_run(folder: Path) -> str:
-    """Return why a path is no run, e.g. `there is no PATH`; empty if it looks like one."""
+    """Return why a path is not a run, e.g. `there is no PATH`; empty if it looks like one."""
     if not folder.exists():
         return f"there is no {folder}"
     if not folder.is_dir():

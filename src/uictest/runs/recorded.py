@@ -35,8 +35,8 @@ class RecordedFile:
     """A file with a recorded stop.
 
     Args:
-        path: of the file.
-        name: of the stop in the reports.
+        path: path of the file.
+        name: name of the stop in the reports.
         digest: SHA-256 of the file.
         stop: the stop in it; None where it cannot be used.
         defects: what is wrong with the record.
@@ -66,8 +66,8 @@ class RecordedStops:
     """Recorded stops to judge.
 
     Args:
-        files: of the recordings, in the order of the cases and then of the stops of series.
-        cases: that stops are judged as.
+        files: files of the recordings, in the order of the cases and then of the stops of series.
+        cases: cases that stops are judged as.
         series: with one stop for each recording.
 
     """
@@ -103,7 +103,7 @@ def stops_of_series(
     """
     if not all(map(is_series, paths)):
         raise InvalidInputError("name series files or recordings, not both")
-    read = [_recorded(planned, trusted) for planned in load_series(paths, overrides, None, trusted)]
+    read = [_recorded_series_of(planned, trusted) for planned in load_series(paths, overrides, None, trusted)]
     return RecordedStops(
         [file for _, files in read for file in files], series=[planned for planned, _ in read]
     )
@@ -118,7 +118,7 @@ def require_nothing_stated(stated: Iterable[object], option: str) -> None:
         )
 
 
-def _recorded(
+def _recorded_series_of(
     planned: series.Series, trusted: Sequence[Path] | None
 ) -> tuple[series.Series, list[RecordedFile]]:
     """Return a series whose stops are the recordings that its file names, and these."""

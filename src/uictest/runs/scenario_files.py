@@ -83,15 +83,15 @@ def is_sweep(path: Path) -> bool:
 
 def series_files(paths: Sequence[Path]) -> Iterator[Path]:
     """Yield the series files among the paths, and those below folders that are not hidden, each once."""
-    return _files(paths, "*.series.y*ml", is_series)
+    return _files_matching(paths, "*.series.y*ml", is_series)
 
 
 def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
     """Yield the sweep files among the paths, and those below folders that are not hidden, each once."""
-    return _files(paths, "*.sweep.y*ml", is_sweep)
+    return _files_matching(paths, "*.sweep.y*ml", is_sweep)
 
 
-def _files(paths: Sequence[Path], pattern: str, is_one: Callable[[Path], bool]) -> Iterator[Path]:
+def _files_matching(paths: Sequence[Path], pattern: str, is_one: Callable[[Path], bool]) -> Iterator[Path]:
     seen: set[Path] = set()
     for path in paths:
         files = [path]
@@ -217,7 +217,7 @@ def implausible_trains(cases: Iterable[scenario.Case]) -> list[yaml.Diagnostic]:
 
 
 def place_of_key(path: Path, key: str) -> yaml.Location | None:
-    """Return where a scenario file, or a file that it refers to, sets a key; None where none does."""
+    """Return the location of a key in a scenario file or a file that it refers to; None without one."""
     path = library.named_scenario(path)
     node: yaml.Node | None = yaml.read_file(path)
     names = key.split(".")

@@ -68,7 +68,7 @@ class SweepRequest:
         return self.selection.size <= report.LARGEST_CSV or "csv" in self.reports
 
     def runner(self) -> ChunkRunner:
-        """Return what runs its chunks in this process."""
+        """Return the runner of its chunks in this process."""
         return chunked.chunk_runner(self.selection.plan, self.run_block, self.run_train)
 
 
@@ -81,7 +81,7 @@ class FinishedSweep:
     """A sweep whose results are written.
 
     Args:
-        result: of the sweep.
+        result: result of the sweep.
         document: the text of results.json.
         content: what its reports show.
         publication: what they were written from.
@@ -102,7 +102,7 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     KeyboardInterrupt, MaxfailReached.
     """
     with (
-        _locked(request.folder, shared=request.shard.count > 1 and not request.restart),
+        _locked_folder(request.folder, shared=request.shard.count > 1 and not request.restart),
         rig.Workers() as workers,
     ):
         if request.in_process and any(sweeps.programs_of(request.selection.plan)):
@@ -120,7 +120,7 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
             raise
 
 
-def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
+def _locked_folder(folder: Path, *, shared: bool) -> files.FolderLock:
     """Return the lock on the folder of a sweep; shards of the sweep share it."""
     files.make_folder(folder)
     if folder.is_symlink():
@@ -155,7 +155,9 @@ def publish(
     request: SweepRequest, store: ChunkStore, summary: summaries.SweepSummary, observer: Observer
 ) -> FinishedSweep:
     """Write the result of a summarised sweep and its reports. Raises OSError."""
-    frontier = None if request.search is None else _frontier(request, summary, request.search, observer)
+    frontier = (
+        None if request.search is None else _searched_frontier(request, summary, request.search, observer)
+    )
     worst = _run_worst(request, summary, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst.results, subjects=worst.subjects)
     if request.firm:
@@ -198,14 +200,14 @@ def _run_worst(request: SweepRequest, summary: summaries.SweepSummary, folder: P
 
     recording = campaign.RecordingRequest("all")
     recording = recording._replace(every=min(recording.every, campaign.shortest_cycle(cases)))
-    settings = _settings(request, cases, recording)
+    settings = _run_settings(request, cases, recording)
     if request.reference is not None:
         settings = replace(settings, domains=request.reference.domains_of(settings.parts))
     results = campaign.run_cases(cases, settings, on_case=write_recording).whole()
     return _WorstCases(tuple(results), campaign.descriptions_of(cases), traces)
 
 
-def _frontier(
+def _searched_frontier(
     request: SweepRequest,
     summary: summaries.SweepSummary,
     search: summaries.FrontierSearch,
@@ -225,7 +227,7 @@ def _nominal_with_firmness(request: SweepRequest, observer: Observer) -> tuple[e
     Raises KeyboardInterrupt.
     """
     cases = _nominal_cases(request.selection.plan.base)
-    settings = _settings(request, cases, campaign.RecordingRequest("none"))
+    settings = _run_settings(request, cases, campaign.RecordingRequest("none"))
     settings = replace(settings, firm=True, calibration=request.calibration)
     return tuple(simulate_cases(cases, settings, observer, unit="stops").whole())
 
@@ -247,10 +249,10 @@ def _nominal_cases(base: scenario.Case) -> list[scenario.Case]:
     ]
 
 
-def _settings(
+def _run_settings(
     request: SweepRequest, cases: Sequence[scenario.Case], recording: campaign.RecordingRequest
 ) -> campaign.RunSettings:
-    """Return how cases of a sweep are run one by one."""
+    """Return the settings for running cases of a sweep one by one."""
     parts = campaign.parts_of_cases(cases)
     return campaign.RunSettings(request.jobs, recording, in_process=request.in_process, parts=parts)
 
@@ -334,7 +336,7 @@ def _run_chunks(
 
 
 def reason_missed(reason: str) -> str:
-    """Return why a case is not met; one that passes unexpectedly has no reason of its own."""
+    """Return the reason if a case is not met; one that passes unexpectedly has no reason of its own."""
     return reason or "another outcome was expected"
 
 
@@ -350,7 +352,7 @@ class _Failures:
         """Count the missed cases of a finished chunk. Raises MaxfailReached."""
         if self._maxfail is None:
             return
-        missed = _missed(content)
+        missed = _missed_rows(content)
         if missed and not self._first:
             outcome, name, reason = missed[0]
             self._first = f"{name}: {outcome}, {reason_missed(reason)}"
@@ -359,7 +361,7 @@ class _Failures:
             raise MaxfailReached(f"{report.counted(self._count, 'case')} not met, the first: {self._first}")
 
 
-def _missed(content: bytes) -> list[tuple[str, str, str]]:
+def _missed_rows(content: bytes) -> list[tuple[str, str, str]]:
     """Return outcome, id and reason of the missed cases in a chunk."""
     import pyarrow.parquet as pq
 
@@ -370,7 +372,7 @@ def _missed(content: bytes) -> list[tuple[str, str, str]]:
 
 
 class ToleranceError(ValueError):
-    """A tolerance of a frontier that is no number with a unit."""
+    """A tolerance of a frontier that is not a number with a unit."""
 
 
 def first_pair(plan: sweeps.Plan) -> tuple[str, str] | None:

@@ -45,7 +45,7 @@ def recorded_stops(
     """
     read = dict(plan.inputs)
     stops = _counted_once(
-        [stop for comparison in plan.comparisons for stop in _stops(plan, comparison, read, trusted)]
+        [stop for comparison in plan.comparisons for stop in _planned_stops(plan, comparison, read, trusted)]
     )
     _require_distinct(plan, stops)
     return stops, read
@@ -54,7 +54,7 @@ def recorded_stops(
 def compared_stop(
     stop: RecordedStopOfPlan, simulated: evaluation.CaseResult | None
 ) -> validation.ComparedStop:
-    """Return a recorded stop beside its simulation, if it has one."""
+    """Return a recorded stop with its simulation, if it has one."""
     file = stop.file
     compared = validation.ComparedStop(
         id=stop.case.id,
@@ -81,7 +81,7 @@ def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
     return [validation.conditions_of(of_case) for of_case in parts.values()]
 
 
-def _stops(
+def _planned_stops(
     plan: series.ValidationPlan,
     planned: series.PlannedComparison,
     read: dict[str, str],
@@ -95,7 +95,7 @@ def _stops(
         case_id = f"{planned.case.id}.{file.name}"
         case = replace(planned.case, id=case_id)
         if file.stop is not None:
-            case = validation.as_recorded(planned.case, case_id, _speed(file.stop), file.digest)
+            case = validation.as_recorded(planned.case, case_id, _initial_speed(file.stop), file.digest)
         yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
 
 
@@ -129,7 +129,7 @@ def _why_not_counted(
 ) -> str:
     if file.stop is None:
         return "; ".join(map(str, file.defects))
-    nominal, speed = float(planned.case.scenario.initial_speed), _speed(file.stop)
+    nominal, speed = float(planned.case.scenario.initial_speed), _initial_speed(file.stop)
     if abs(speed - nominal) > plan.speed_tolerance:
         stated = f"{nominal / KILOMETRE_PER_HOUR:.4g} km/h"
         within = f"{plan.speed_tolerance / KILOMETRE_PER_HOUR:.3g} km/h"
@@ -137,12 +137,12 @@ def _why_not_counted(
     return ""
 
 
-def _speed(stop: field_data.RecordedStop) -> float:
+def _initial_speed(stop: field_data.RecordedStop) -> float:
     return float(stop.recording["speed"][0])
 
 
 def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult) -> str:
-    """Return why the stop has no end. Not validated: stops without one."""
+    """Return the reason for which the stop has no end. Not validated: stops without one."""
     if simulated.outcome == "error":
         return f"simulation: {simulated.reason}"
     for figures, of_what in ((stop.recorded, "record"), (stop.simulated, "simulation")):

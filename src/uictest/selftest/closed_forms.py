@@ -24,7 +24,7 @@ _CONDUCTANCE: Final = 1e-8
 """Of an orifice, m3/(s Pa): 1 litre per second and bar."""
 _LAW: Final = physics.orifice_law(critical_ratio=0.35, laminar_ratio=0.995)
 _ISOTHERMAL: Final = 1e9
-"""Heat conductance within a step, J/K, beside which the heat capacity of the air is nothing."""
+"""Heat conductance within a step, J/K, against which the heat capacity of the air is negligible."""
 
 
 def _temperature_after(mass: float, temperature: float, gained: float, *, exchange: float = 0.0) -> float:

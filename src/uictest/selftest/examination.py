@@ -41,7 +41,7 @@ def environment() -> dict[str, str]:
         "processor": _processor(),
         "C compiler": compiler_version(),
         **{name: version(name) for name in _PACKAGES},
-        **{f"extra {name}": state for name, state in _extras()},
+        **{f"extra {name}": state for name, state in _versions_of_extras()},
     }
 
 
@@ -52,7 +52,7 @@ def environment_checks() -> Iterator[Check]:
         "installed-files", "environment", what, _installed_files, unit="files", origin="installed files"
     )
     what = "what is written to the cache is read back"
-    yield Check("cache", "environment", what, _cache, advisory=True, origin="made by hand")
+    yield Check("cache", "environment", what, _answer_of_cache, advisory=True, origin="made by hand")
 
 
 def _processor() -> str:
@@ -62,7 +62,7 @@ def _processor() -> str:
     return f"{name}, {os.cpu_count()} cores, {lanes} lanes{fused}"
 
 
-def _extras() -> Iterator[tuple[str, str]]:
+def _versions_of_extras() -> Iterator[tuple[str, str]]:
     own = distribution("uictest")
     for extra in own.metadata.get_all("Provides-Extra") or ():
         if extra == "dev":
@@ -87,11 +87,11 @@ def _installed_files(stops: KnownStops) -> Answer:
         raise NotCheckedError(
             "installed from a working tree, which has no list of files: shipped-data compares its data"
         )
-    differ = [str(file) for file in files if not _unchanged(file)]
+    differ = [str(file) for file in files if not _is_unchanged(file)]
     return Answer(0.0, float(len(differ)), ", ".join(differ[:5]))
 
 
-def _unchanged(file: PackagePath) -> bool:
+def _is_unchanged(file: PackagePath) -> bool:
     assert file.hash is not None
     try:
         content = Path(str(file.locate())).read_bytes()
@@ -101,7 +101,7 @@ def _unchanged(file: PackagePath) -> bool:
     return base64.urlsafe_b64encode(digest).rstrip(b"=").decode() == file.hash.value
 
 
-def _cache(stops: KnownStops) -> Answer:
+def _answer_of_cache(stops: KnownStops) -> Answer:
     user_cache.write("selftest", _TRIAL, _TRIAL)
     content = user_cache.read("selftest", _TRIAL)
     if content == _TRIAL:

@@ -47,7 +47,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Examination:
-    """What was examined and what the checks have found.
+    """The examined object and the findings of the checks.
 
     Attributes:
         kind: how it was examined.
@@ -74,8 +74,10 @@ _TAGS: Final[Mapping[str, TestcaseStatus]] = {"fail": "failure", "error": "error
 _COLUMNS: Final[tuple[Column[Finding], ...]] = (
     Column(heading="check", text=lambda finding: finding.id),
     Column(heading="verdict", text=lambda finding: finding.status),
-    Column(heading="expected", text=lambda finding: _expected(finding), rank=1, right=True),
-    Column(heading="found", text=lambda finding: _text(finding, finding.found), rank=1, right=True),
+    Column(heading="expected", text=lambda finding: _expected_in_words(finding), rank=1, right=True),
+    Column(
+        heading="found", text=lambda finding: _answer_in_words(finding, finding.found), rank=1, right=True
+    ),
     Column(
         heading="within",
         text=lambda finding: f"{100.0 * finding.tolerance:.3g} %" if finding.tolerance else "exact",
@@ -88,16 +90,16 @@ _COLUMNS: Final[tuple[Column[Finding], ...]] = (
 
 
 def finding_document(examination: Examination) -> Document:
-    """Return what was examined, a table of findings, and what was not as it should be."""
+    """Return the examined object, a table of findings, and remarks on those that did not pass."""
     facts = [f"{name}: {text}" for name, text in examination.about.items() if text]
     heads = [examination.title] if examination.title else facts
     is_equal = any(finding.tolerance is not None for finding in examination.findings)
     columns = [column for column in _COLUMNS if is_equal or column.heading != "within"]
     table = Table(columns, examination.findings, all_in="--format json")
-    return Document(examination.title, [Lines(heads), table, Lines(list(_remarks(examination)))])
+    return Document(examination.title, [Lines(heads), table, Lines(list(_lines_of_remarks(examination)))])
 
 
-def _remarks(examination: Examination) -> Iterator[str]:
+def _lines_of_remarks(examination: Examination) -> Iterator[str]:
     for finding in examination.findings:
         if finding.status != "pass":
             yield f"{finding.status} {finding.id}: {finding.reason or finding.requirement}"
@@ -107,7 +109,7 @@ def _remarks(examination: Examination) -> Iterator[str]:
 
 
 def findings_json(examination: Examination) -> str:
-    """Return what was examined and the findings as JSON; a number that is none, or has no bound, is null."""
+    """Return the examined object and the findings as JSON; NaN and infinite numbers are null."""
     content = {
         "schema": SCHEMA,
         "kind": examination.kind,
@@ -116,8 +118,8 @@ def findings_json(examination: Examination) -> str:
         "checks": [
             {
                 **{name: value for name, value in asdict(finding).items() if value or name != "origin"},
-                "expected": _number(finding.expected),
-                "found": _number(finding.found),
+                "expected": _finite_or_none(finding.expected),
+                "found": _finite_or_none(finding.found),
             }
             for finding in examination.findings
         ],
@@ -130,23 +132,23 @@ def findings_suite(examination: Examination) -> Suite:
     prefix = "uictest.selftest." if examination.kind == "selftest" else ""
     testcases = []
     for finding in examination.findings:
-        found = f"{_text(finding, finding.found)} {finding.unit}".rstrip()
-        sentence = f"{finding.requirement}: expected {_expected(finding)}, found {found}"
+        found = f"{_answer_in_words(finding, finding.found)} {finding.unit}".rstrip()
+        sentence = f"{finding.requirement}: expected {_expected_in_words(finding)}, found {found}"
         lines = [finding.reason, sentence] if finding.reason else [sentence]
         status = _TAGS.get(finding.status, "passed")
         testcases.append(Testcase(f"{prefix}{finding.group}", finding.id, status, lines))
     return Suite(f"uictest {examination.kind}", testcases, properties=examination.about)
 
 
-def _number(value: Answer) -> Answer:
+def _finite_or_none(value: Answer) -> Answer:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _expected(finding: Finding) -> str:
-    return f"{'at most ' if finding.tolerance is None else ''}{_text(finding, finding.expected)}"
+def _expected_in_words(finding: Finding) -> str:
+    return f"{'at most ' if finding.tolerance is None else ''}{_answer_in_words(finding, finding.expected)}"
 
 
-def _text(finding: Finding, value: Answer) -> str:
+def _answer_in_words(finding: Finding, value: Answer) -> str:
     if value is None or isinstance(value, str):
         return value or "-"
     if math.isinf(value):

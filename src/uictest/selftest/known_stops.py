@@ -43,20 +43,22 @@ class KnownStops:
         """Return the numbers of all stops, simulated side by side in the lanes of a register."""
         inputs = [rig.assemble(case) for case in self.cases.values()]
         stops = zip(self.cases, *rig.run_in_lanes(*rig.stacked(inputs)), strict=True)
-        return {name: numbers_of(train, wheelsets) for name, train, wheelsets in stops}
+        return {name: measures_as_text(train, wheelsets) for name, train, wheelsets in stops}
 
 
-def numbers_of(train: Any, wheelsets: Any) -> Numbers:
-    """Return every number of the measures of a stop and of its wheelsets as text."""
-    numbers = {name: _text(train[name]) for name in train.dtype.names}
+def measures_as_text(train: Any, wheelsets: Any) -> Numbers:
+    """Return the measures of a stop and of its wheelsets as text: name -> all digits of its numbers."""
+    numbers = {name: _numbers_as_text(train[name]) for name in train.dtype.names}
     for number, wheelset in enumerate(wheelsets, start=1):
-        numbers |= {f"wheelset_{number}.{name}": _text(wheelset[name]) for name in wheelset.dtype.names}
+        numbers |= {
+            f"wheelset_{number}.{name}": _numbers_as_text(wheelset[name]) for name in wheelset.dtype.names
+        }
     return numbers
 
 
 def numbers_of_stop(stop: rig.SimulatedStop) -> Numbers:
     """Return every number of a simulated stop as text."""
-    return numbers_of(stop.measures, stop.wheelset_measures)
+    return measures_as_text(stop.measures, stop.wheelset_measures)
 
 
 def digest_of(numbers: Numbers) -> str:
@@ -72,7 +74,7 @@ def inputs_digest(case: scenario.Case) -> str:
     return hashlib.sha256(b"".join(record.tobytes() for record in records)).hexdigest()
 
 
-def _text(number: Any) -> str:
+def _numbers_as_text(number: Any) -> str:
     return " ".join(repr(float(value)) for value in np.ravel(number))
 
 
@@ -86,11 +88,11 @@ Origin = Literal[
     "made by hand",
     "installed files",
 ]
-"""Where a known answer comes from: only closed forms and publications are true without this program."""
+"""Origin of a known answer: only closed forms and publications are independent of this program."""
 
 
 class NotCheckedError(Exception):
-    """What a check needs is not there; the message says what."""
+    """Something that a check needs is missing; the message names it."""
 
 
 class Answer(NamedTuple):
@@ -131,21 +133,23 @@ _FLAGS: Final = ("-O2", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-o
 
 def python_stop() -> rig.SimulatedStop:
     """Return the stop with the controller in Python."""
-    return _stop("python", lambda folder: None)
+    return _stop_of_template("python", lambda folder: None)
 
 
 def c_stop() -> rig.SimulatedStop:
     """Return the stop with the controller in C. Raises NotCheckedError where it cannot be built."""
 
     def build(folder: Path) -> None:
-        done = subprocess.run([_compiler(), *_FLAGS], cwd=folder, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [_compiler_version(), *_FLAGS], cwd=folder, capture_output=True, text=True, check=False
+        )
         if done.returncode != 0:
             raise NotCheckedError(f"the C compiler failed: {done.stderr.strip()}")
 
-    return _stop("c", build)
+    return _stop_of_template("c", build)
 
 
-def _stop(language: templates.Language, build: Callable[[Path], None]) -> rig.SimulatedStop:
+def _stop_of_template(language: templates.Language, build: Callable[[Path], None]) -> rig.SimulatedStop:
     with files.temporary_folder() as folder:
         for name, content in templates.controller_files(language).items():
             files.write(folder, name, content)
@@ -154,7 +158,7 @@ def _stop(language: templates.Language, build: Callable[[Path], None]) -> rig.Si
         return rig.simulate(case)
 
 
-def _compiler() -> str:
+def _compiler_version() -> str:
     if os.name != "posix":
         raise NotCheckedError("the Makefile of the first controller in C is for Linux and macOS")
     names = [os.environ["CC"]] if os.environ.get("CC") else ["cc", "gcc", "clang"]
@@ -165,9 +169,9 @@ def _compiler() -> str:
 
 
 def compiler_version() -> str:
-    """Return what the C compiler of the check says of itself, or why there is none."""
+    """Return the version text of the C compiler of the check, or the reason why there is none."""
     try:
-        done = subprocess.run([_compiler(), "--version"], capture_output=True, text=True, check=False)
+        done = subprocess.run([_compiler_version(), "--version"], capture_output=True, text=True, check=False)
     except (NotCheckedError, OSError) as error:
         return f"absent: {error}"
     return (done.stdout.splitlines() or ["not known"])[0]
@@ -175,7 +179,7 @@ def compiler_version() -> str:
 
 _PACKAGE: Final = Path(__file__).parents[1]
 _FOLDERS: Final = ("plans/library", "selftest/stops", "selftest/record", "plans/templates")
-"""Where the parts, criteria, known stops and first files of users lie."""
+"""Folders of the parts, criteria, known stops and templates."""
 _LEFT_OUT: Final = {"__pycache__", "scenarios"}
 """Left out, as hidden files of editors are: what Python leaves there, and the scenarios, which only a wheel
 has there and whose digests every run states."""
@@ -200,7 +204,7 @@ _DATA: Final = "data"
 
 
 @cache
-def _stored() -> Mapping[str, Any]:
+def _stored_reference() -> Mapping[str, Any]:
     stored: Mapping[str, Any] = json.loads(REFERENCE.read_text("utf-8"))
     if stored.get("schema") != SCHEMA:
         raise ValueError(f"{REFERENCE.name}: expected the schema {SCHEMA}, found {stored.get('schema')!r}")
@@ -209,7 +213,7 @@ def _stored() -> Mapping[str, Any]:
 
 def reference_version() -> str:
     """Return the version of uictest that computed the stored numbers."""
-    return str(_stored()["version"])
+    return str(_stored_reference()["version"])
 
 
 def computed_reference() -> str:
@@ -237,24 +241,24 @@ def stop_checks(stops: KnownStops) -> Iterator[Check]:
     """Yield two checks of every known stop: what the rig is given, and every number that comes out."""
     for name, case in stops.cases.items():
         what = f"SHA-256 of the inputs of {name}"
-        yield Check(f"inputs-of-{name}", "numerics", what, partial(_inputs, name))
+        yield Check(f"inputs-of-{name}", "numerics", what, partial(_answer_of_inputs, name))
         what = f"SHA-256 of all measures: {case.scenario.title}"
-        yield Check(name, "numerics", what, partial(_alone, name))
-    yield Check("lanes", "lanes", "SHA-256 of all stops, side by side in SIMD lanes", _in_lanes)
+        yield Check(name, "numerics", what, partial(_answer_alone, name))
+    yield Check("lanes", "lanes", "SHA-256 of all stops, side by side in SIMD lanes", _answer_in_lanes)
 
 
-def _inputs(name: str, stops: KnownStops) -> Answer:
-    expected, computed = _stored()["stops"][name]["inputs_sha256"], inputs_digest(stops.cases[name])
+def _answer_of_inputs(name: str, stops: KnownStops) -> Answer:
+    expected, computed = _stored_reference()["stops"][name]["inputs_sha256"], inputs_digest(stops.cases[name])
     words = "parts of the library, or their assembly, are not those of this version"
     return Answer(expected[:_DIGITS], computed[:_DIGITS], "" if computed == expected else words)
 
 
-def _alone(name: str, stops: KnownStops) -> Answer:
-    return answer_of(_stored()["stops"][name]["numbers"], numbers_of_stop(stops.stop(name)))
+def _answer_alone(name: str, stops: KnownStops) -> Answer:
+    return answer_of(_stored_reference()["stops"][name]["numbers"], numbers_of_stop(stops.stop(name)))
 
 
-def _in_lanes(stops: KnownStops) -> Answer:
-    stored = {stop: _stored()["stops"][stop]["numbers"] for stop in stops.cases}
+def _answer_in_lanes(stops: KnownStops) -> Answer:
+    stored = {stop: _stored_reference()["stops"][stop]["numbers"] for stop in stops.cases}
     expected, computed = (
         {f"{stop}.{name}": text for stop, numbers in of_stops.items() for name, text in numbers.items()}
         for of_stops in (stored, stops.in_lanes())
@@ -271,7 +275,7 @@ def controller_checks() -> Iterator[Check]:
 
 
 def _from_outside(run: Callable[[], rig.SimulatedStop], stops: KnownStops) -> Answer:
-    return answer_of(_stored()[_OUTSIDE], numbers_of_stop(run()))
+    return answer_of(_stored_reference()[_OUTSIDE], numbers_of_stop(run()))
 
 
 def answer_of(expected: Numbers, found: Numbers) -> Answer:
@@ -296,7 +300,7 @@ def data_checks() -> Iterator[Check]:
 
 
 def _shipped_data(stops: KnownStops) -> Answer:
-    differ = list(different_files(_stored()[_DATA], data_digests()))
+    differ = list(different_files(_stored_reference()[_DATA], data_digests()))
     more = len(differ) - _MOST_FILES_NAMED
     rest = f" and {more} more" if more > 0 else ""
     return Answer(0.0, float(len(differ)), ", ".join(differ[:_MOST_FILES_NAMED]) + rest)
@@ -343,39 +347,45 @@ def judging_checks() -> Iterator[Check]:
     )
     known = {"m": _SPEED**2 / (2.0 * _DECELERATION), "m/s2": _DECELERATION}
     for name, quantity, formula, column, unit in closed_forms:
-        what, answer = f"{quantity} {of_record.format(formula)}", partial(_figure, column, known[unit])
+        what, answer = (
+            f"{quantity} {of_record.format(formula)}",
+            partial(_answer_of_measure, column, known[unit]),
+        )
         yield Check(name, "judging", what, answer, 1e-6, unit, origin="closed form")
     for criterion, status in _VERDICTS.items():
-        what, answer = f"verdict {of_record.format(criterion)}", partial(_verdict, criterion, status)
+        what, answer = (
+            f"verdict {of_record.format(criterion)}",
+            partial(_answer_of_verdict, criterion, status),
+        )
         yield Check(f"verdict-{criterion}", "judging", what, answer, origin="made by hand")
     what = f"outcome {of_record.format('two limits missed')}"
     yield Check(
         *("record-outcome", "judging", what),
-        lambda stops: Answer("fail", _judged().outcome, _judged().reason),
+        lambda stops: Answer("fail", _judged_record().outcome, _judged_record().reason),
         origin="made by hand",
     )
 
 
-def _figure(column: str, expected: float, stops: KnownStops) -> Answer:
-    measures = _judged().measures
+def _answer_of_measure(column: str, expected: float, stops: KnownStops) -> Answer:
+    measures = _judged_record().measures
     assert measures is not None
     return Answer(expected, measures[column])
 
 
-def _verdict(criterion: str, status: str, stops: KnownStops) -> Answer:
-    verdict = next(verdict for verdict in _judged().criteria if verdict.id == criterion)
+def _answer_of_verdict(criterion: str, status: str, stops: KnownStops) -> Answer:
+    verdict = next(verdict for verdict in _judged_record().criteria if verdict.id == criterion)
     return Answer(status, verdict.status, verdict.reason)
 
 
 @cache
-def _judged() -> evaluation.CaseResult:
+def _judged_record() -> evaluation.CaseResult:
     (case,) = scenario.load([_SCENARIO])
-    stop = field_data.prepare(_channels(), {}, _AT_ZERO)
+    stop = field_data.prepare(_record_made_by_hand(), {}, _AT_ZERO)
     result, _ = field_data.judge_recording(case, stop)
     return result
 
 
-def _channels() -> dict[str, field_data.RawChannel]:
+def _record_made_by_hand() -> dict[str, field_data.RawChannel]:
     """Return speeds from a second before the brake command until a second after the stop, at 100 Hz."""
     time = np.arange(-100, 100 * round(_SPEED / _DECELERATION) + 100) / 100.0
     speed = np.clip(_SPEED - _DECELERATION * time, 0.0, _SPEED)

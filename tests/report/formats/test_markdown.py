@@ -30,7 +30,7 @@ def test_a_document_is_headings_tables_and_lists():
         "| case | verdict | distance, m | vents | met | energy, kJ | why |\n|---|---|--:|--:|---|--:|---|\n"
         "| `slide-80[friction=0.10]` | pass | 465.3 | 7 | yes | 8.642e+06 |  |\n"
         "| `wet-80` | **fail** | - | 0 | no | 0 | wheelset 2 stands |\n"
-        "| `dry-120` | pass | - | 12 | yes | 1.4815e+07 |  |\n"
+        "| `dry-120` | pass | - | 12 | yes | 1.481e+07 |  |\n"
         "\n### Notes\n\n- One sentence\n- Another\n"
     )
 

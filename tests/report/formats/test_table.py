@@ -15,7 +15,7 @@ def test_people_and_programs_read_each_their_own_columns():
         "distance\nm": ["465.3", "-", "-"],
         "vents": ["7", "0", "12"],
         "met": ["yes", "no", "yes"],
-        "energy\nkJ": ["8.642e+06", "0", "1.4815e+07"],
+        "energy\nkJ": ["8.642e+06", "0", "1.481e+07"],
         "why": ["", "wheelset 2 stands", ""],
     }
     assert [list(record.values()) for record in TABLE.records] == [
@@ -55,7 +55,7 @@ def test_columns_by_key_read_mappings_or_what_a_function_makes_of_a_row():
 @pytest.mark.parametrize(
     ("value", "digits", "text"),
     [
-        *((1.25, 1, "1.2"), (465.2549, "significant", "465.25"), (1e-12, None, "1e-12")),
+        *((1.25, 1, "1.2"), (465.2549, "significant", "465.3"), (1e-12, None, "1e-12")),
         *((None, 2, "-"), (float("nan"), "significant", "-"), (float("inf"), 0, "inf")),
     ],
 )

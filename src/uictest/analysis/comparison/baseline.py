@@ -38,16 +38,16 @@ class Baseline:
 
     def compare(self, run: report.RunContent) -> BaselineComparison:
         """Compare every case and series of a run, and list those of the baseline that were not compared."""
-        quantities = {result.id: list(self._quantities(result)) for result in run.results}
+        quantities = {result.id: list(self._compared_quantities(result)) for result in run.results}
         missing, other_ids = self._not_compared(quantities)
         of_series = compare_accepted_series(self.run.series, run.series, self.scope, self.tolerances)
         compared = [*quantities.values(), *of_series.quantities.values()]
         beyond = {
-            own_id: _beyond(each)
+            own_id: _out_of_tolerance(each)
             for side in (quantities, of_series.quantities)
             for own_id, each in side.items()
         }
-        beyond |= {case_id: [_missing(self.results[case_id])] for case_id in missing}
+        beyond |= {case_id: [_missing_case(self.results[case_id])] for case_id in missing}
         # As if the accepted run had read nothing that this one did not select.
         manifest, read = self.run.manifest, run.manifest.inputs
         inputs = {name: digest for name, digest in manifest.inputs.items() if name in read}
@@ -65,7 +65,7 @@ class Baseline:
             series_not_compared=of_series.not_compared,
             notes=[*self._parameters_changed(run), *run_notes(limited, run)],
             values={
-                result.id: _values(self.results[result.id], result)
+                result.id: _comparable_values(self.results[result.id], result)
                 for result in run.results
                 if result.id in self.results
             },
@@ -73,7 +73,7 @@ class Baseline:
 
     def differences(self, result: evaluation.CaseResult) -> list[Difference]:
         """Return the quantities of a case that are out of tolerance."""
-        return _beyond(self._quantities(result))
+        return _out_of_tolerance(self._compared_quantities(result))
 
     def _not_compared(self, compared: Container[str]) -> tuple[dict[str, str], list[str]]:
         """Return the cases that the scenario files no longer have (id -> file), and the ids of the others."""
@@ -83,7 +83,7 @@ class Baseline:
         }
         return missing, [result.id for result in results if result.id not in missing]
 
-    def _quantities(self, result: evaluation.CaseResult) -> Iterator[Difference | None]:
+    def _compared_quantities(self, result: evaluation.CaseResult) -> Iterator[Difference | None]:
         """Yield one item per quantity compared: None where both sides are the same."""
         accepted = self.results.get(result.id)
         if accepted is None:
@@ -109,10 +109,10 @@ def read_baseline(folder: Path, scope: Scope, tolerances: Tolerances) -> Baselin
         raise ValueError(f"{path}: not the results of a run: {error}") from error
     results = {result.id: result for result in run.results}
     sha256 = hashlib.sha256(content).hexdigest()
-    return Baseline(str(_named(folder)), sha256, run, results, document, scope, tolerances)
+    return Baseline(str(_linked_run(folder)), sha256, run, results, document, scope, tolerances)
 
 
-def _named(folder: Path) -> Path:
+def _linked_run(folder: Path) -> Path:
     """Return the run that `latest` names now: after this run it names another."""
     if folder.name != "latest" or not folder.is_symlink():
         return folder
@@ -120,12 +120,12 @@ def _named(folder: Path) -> Path:
     return run if run.is_dir() else folder
 
 
-def _beyond(quantities: Iterable[Difference | None]) -> list[Difference]:
+def _out_of_tolerance(quantities: Iterable[Difference | None]) -> list[Difference]:
     """Return the differences out of tolerance; None stands for a quantity that is the same."""
     return [quantity for quantity in quantities if quantity and not quantity.within]
 
 
-def _values(accepted: evaluation.CaseResult, result: evaluation.CaseResult) -> dict[str, float]:
+def _comparable_values(accepted: evaluation.CaseResult, result: evaluation.CaseResult) -> dict[str, float]:
     """Return the accepted values of the criteria of a case that count in the same unit now."""
     units = {verdict.id: verdict.unit for verdict in result.criteria}
     return {
@@ -137,7 +137,7 @@ def _values(accepted: evaluation.CaseResult, result: evaluation.CaseResult) -> d
     }
 
 
-def _missing(accepted: evaluation.CaseResult) -> Difference:
+def _missing_case(accepted: evaluation.CaseResult) -> Difference:
     remark = f"{accepted.scenario} no longer has this case; --accept drops it"
     return Difference(accepted.id, "case", accepted.outcome, "missing", within=False, remark=remark)
 
@@ -155,7 +155,7 @@ def accepted_document(run: Mapping[str, Any], baseline: Baseline | None) -> dict
         return dict(run)
     accepted = baseline.document
     cases = {case["id"]: case for case in run["cases"]}
-    kept = [case for case in accepted["cases"] if _stays(case, "scenario", cases, baseline.scope)]
+    kept = [case for case in accepted["cases"] if _stays_accepted(case, "scenario", cases, baseline.scope)]
     of_series = _with_series(run.get("series"), accepted.get("series"), baseline.scope)
     if not kept and of_series == run.get("series"):
         return dict(run)
@@ -174,21 +174,21 @@ def _with_series(
     run: Mapping[str, Any] | None, accepted: Mapping[str, Any] | None, scope: Scope
 ) -> dict[str, Any] | None:
     """Return the series of a run and those accepted before that stay; None where there is none."""
-    own = dict(run) if run else {}
+    current = dict(run) if run else {}
     if not accepted:
-        return own or None
-    ids = {result["id"] for result in own.get("series", ())}
-    kept = [result for result in accepted["series"] if _stays(result, "file", ids, scope)]
+        return current or None
+    ids = {result["id"] for result in current.get("series", ())}
+    kept = [result for result in accepted["series"] if _stays_accepted(result, "file", ids, scope)]
     if not kept:
-        return own or None
+        return current or None
     stops = {each["case"] for result in kept for each in result["cases"]}
     cases = [case for case in accepted["cases"] if case["id"] in stops]
     return {
-        "parts": {**accepted["parts"], **own.get("parts", {})},
-        "cases": [*cases, *own.get("cases", ())],
-        "series": [*kept, *own.get("series", ())],
+        "parts": {**accepted["parts"], **current.get("parts", {})},
+        "cases": [*cases, *current.get("cases", ())],
+        "series": [*kept, *current.get("series", ())],
     }
 
 
-def _stays(item: Mapping[str, Any], file: str, run: Container[str], scope: Scope) -> bool:
+def _stays_accepted(item: Mapping[str, Any], file: str, run: Container[str], scope: Scope) -> bool:
     return item["id"] not in run and not scope.misses(item["id"], item[file])

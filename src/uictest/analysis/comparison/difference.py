@@ -90,7 +90,7 @@ def comparison_document(comparison: Comparison, *, every: bool = False) -> Docum
     The table has only the worst wheelset for each measure of wheelsets; with `every`, it has all differences.
     """
     sections: list[Table | Lines] = [
-        _table(comparison.differences if every else worst_of_wheelsets(comparison.beyond))
+        _differences_table(comparison.differences if every else worst_of_wheelsets(comparison.beyond))
     ]
     if comparison.paired is not None:
         sections += paired_sections(comparison.paired)
@@ -107,7 +107,7 @@ def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
         yield f"parameters: {len(changes) - len(shown)} more differ; -v lists them"
 
 
-def _word(difference: Difference) -> str:
+def _difference_word(difference: Difference) -> str:
     return "within" if difference.within else DIFFERS
 
 
@@ -124,9 +124,13 @@ _COLUMNS: Final[tuple[Column[Difference], ...]] = (
 )
 
 
-def _table(differences: Sequence[Difference]) -> Table:
+def _differences_table(differences: Sequence[Difference]) -> Table:
     # A word that all rows share is left out first.
-    word = Column(heading="verdict", text=_word, rank=5 if len(set(map(_word, differences))) == 1 else 0)
+    word = Column(
+        heading="verdict",
+        text=_difference_word,
+        rank=5 if len(set(map(_difference_word, differences))) == 1 else 0,
+    )
     return Table((word, *_COLUMNS), differences, all_in="--format json", grouped_by=_CASE)
 
 

@@ -81,7 +81,7 @@ DISTANCE = "distance"
 _FEWEST = 2
 """Samples that a line takes."""
 _ROLL_BACK = 1.0
-"""m: a train that has stopped swings back by millimetres; what falls by more is no distance run. Chosen."""
+"""m: a train that has stopped swings back by millimetres; more is not a distance run. Chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,10 +99,10 @@ class ChannelDifference:
 
     Args:
         channel: its name.
-        unit: of its samples, one of the page.
+        unit: unit of its samples, one of the page.
         samples: both sides over time, s.
         worst: where both sides have a value and lie furthest apart; None where they share no such instant.
-        mean: of second - first over these instants; None where there are none.
+        mean: mean of second - first over these instants; None where there are none.
         allowed: how far the sides may lie apart; None where no tolerance was given.
 
     """
@@ -125,22 +125,24 @@ class ChannelDifference:
 def channel_difference(
     channel: str, first: recording.Recording, second: recording.Recording, allowed: float | None = None
 ) -> ChannelDifference:
-    """Return how a channel that both recordings have in the same unit differs."""
+    """Return the difference of a channel that both recordings have in the same unit."""
     both = common_samples(over_time(first, channel), over_time(second, channel), holds=holds(channel))
-    known = both.difference[np.isfinite(both.difference)]
-    mean = float(known.mean()) if len(known) else None
+    finite = both.difference[np.isfinite(both.difference)]
+    mean = float(finite.mean()) if len(finite) else None
     return ChannelDifference(channel, first.units[channel], both, worst_instant(both), mean, allowed)
 
 
 def allowed_of(channel: str, records: Iterable[recording.Recording], tolerances: Tolerances) -> float:
-    """Return how far a channel of two recordings may lie apart, in its unit: by the larger of its ranges."""
+    """Return the allowed difference of a channel of two recordings, in its unit, by the larger range."""
     samples = (np.asarray(record[channel], dtype=np.float64) for record in records)
-    known = (each[np.isfinite(each)] for each in samples)
-    return tolerances.of(channel).allowed(max(float(np.ptp(each)) if len(each) else 0.0 for each in known))
+    finite = (values[np.isfinite(values)] for values in samples)
+    return tolerances.of(channel).allowed(
+        max(float(np.ptp(values)) if len(values) else 0.0 for values in finite)
+    )
 
 
 def worst_instant(both: CommonSamples) -> WorstInstant | None:
-    """Return where two series lie furthest apart; None where at no place both have a value."""
+    """Return the instant at which two series lie furthest apart; None where they share no value."""
     apart = np.abs(both.difference)
     if not np.isfinite(apart).any():
         return None
@@ -215,7 +217,7 @@ def curves_over_time(
     curves: dict[str, Curve] = {}
     for each in differences:
         sides = over_time(first, each.channel), over_time(second, each.channel)
-        curves |= _curves(each.channel, sides, each.samples)
+        curves |= _channel_curves(each.channel, sides, each.samples)
     return curves
 
 
@@ -247,7 +249,7 @@ def over_common_distance(
         both = common_samples(*sides, holds=holds(channel))
         if not len(both.at):
             return OverDistance(why_not="A and B share no distance")
-        curves |= _curves(channel, sides, both)
+        curves |= _channel_curves(channel, sides, both)
         worst[channel] = worst_instant(both)
     return OverDistance(curves, worst)
 
@@ -259,33 +261,33 @@ def _over_distance(side: str, record: recording.Recording, channel: str) -> Samp
         raise ValueError(f"in {side} {error}") from error
 
 
-def _curves(channel: str, sides: tuple[Sampled, Sampled], both: CommonSamples) -> dict[str, Curve]:
-    shared = _points(both.first, both.second, both.difference)
+def _channel_curves(channel: str, sides: tuple[Sampled, Sampled], both: CommonSamples) -> dict[str, Curve]:
+    shared = _rows_of_extremes(both.first, both.second, both.difference)
     steps = holds(channel)
     places = both.at[shared]
     lines = {
-        curve_name("first", channel): _side(sides[0], places),
-        curve_name("second", channel): _side(sides[1], places),
+        curve_name("first", channel): _side_curve(sides[0], places),
+        curve_name("second", channel): _side_curve(sides[1], places),
         curve_name("difference", channel): Curve(places, both.difference[shared]),
     }
-    return {name: _stepped(curve) if steps else curve for name, curve in lines.items() if len(curve.x)}
+    return {name: _stepped_curve(curve) if steps else curve for name, curve in lines.items() if len(curve.x)}
 
 
-def _side(side: Sampled, places: Samples) -> Curve:
+def _side_curve(side: Sampled, places: Samples) -> Curve:
     """Return a side through its extremes, and through its samples at the points of the difference."""
     shared, on_sample = recording.rows_at(side.at, places)
-    rows = np.union1d(_points(side.values), shared[on_sample])
+    rows = np.union1d(_rows_of_extremes(side.values), shared[on_sample])
     return Curve(side.at[rows], side.values[rows])
 
 
-def _points(*series: Samples) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def _rows_of_extremes(*series: Samples) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Return the rows that hold the extremes of every one of some series of equal length."""
     if not len(series[0]):
         return np.zeros(0, dtype=np.intp)
     return np.unique(np.concatenate([thinned(each, BINS) for each in series]))
 
 
-def _stepped(curve: Curve) -> Curve:
+def _stepped_curve(curve: Curve) -> Curve:
     return Curve(np.repeat(curve.x, 2)[1:], np.repeat(curve.y, 2)[:-1])
 
 
@@ -324,7 +326,7 @@ class Overlay:
 
 
 def default_channels(remarkable: Sequence[str], common: Sequence[str]) -> list[str]:
-    """Return what is drawn where no channels are chosen: the speed and the remarkable channels."""
+    """Return the channels drawn where none are chosen: the speed and the remarkable channels."""
     first = [name for name in FIRST_DRAWN if name == "speed" or name in remarkable]
     return [name for name in dict.fromkeys([*first, *remarkable]) if name in common][:DRAWN]
 
@@ -342,7 +344,7 @@ def overlay_of(
         title,
         differences,
         (recording.mean_interval(first[recording.TIME]), recording.mean_interval(second[recording.TIME])),
-        _trace(first, second, differences),
+        _overlay_trace(first, second, differences),
         over_common_distance(first, second, channels),
         [name for name in common if name not in channels],
         only_in(first.units, second.units),
@@ -352,7 +354,7 @@ def overlay_of(
 
 
 def sampling_remarks(first: recording.Recording, second: recording.Recording) -> Iterator[str]:
-    """Yield how samples at different instants were compared, and which time was not; A is the first side."""
+    """Yield the notes on samples at different instants, and on time not compared; A is the first side."""
     times = first[recording.TIME], second[recording.TIME]
     instants, coarser = recording.common_instants(*times), recording.coarser(*times)
     if not len(instants):
@@ -376,7 +378,7 @@ def sampling_remarks(first: recording.Recording, second: recording.Recording) ->
             yield f"{side} goes on for {later} s, from {number(float(other[-1]))} s: not compared"
 
 
-def _trace(
+def _overlay_trace(
     first: recording.Recording, second: recording.Recording, differences: Sequence[ChannelDifference]
 ) -> PlotTrace:
     times = first[recording.TIME], second[recording.TIME]

@@ -68,7 +68,7 @@ MEASURE: Final = "braking_distance_m"
 MOST: Final = 40
 """Rows that are drawn, those that differ most; the table has the others. Chosen: two screens."""
 _LETTERS: Final = 40
-"""Of an id of a case that there is room for."""
+"""Characters of the id of a case that have room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,20 +81,20 @@ class Dumbbells:
 
 def dumbbells(differences: Iterable[Difference]) -> Dumbbells | None:
     """Return the drawing of the cases whose braking distance differs; None where there is none."""
-    known = [
+    distances = [
         (each.case, each.first, each.second)
         for each in differences
         if each.quantity == MEASURE and not isinstance(each.first, str) and not isinstance(each.second, str)
     ]
-    known = [each for each in known if math.isfinite(each[1] + each[2])]
-    if not known:
+    distances = [each for each in distances if math.isfinite(each[1] + each[2])]
+    if not distances:
         return None
-    drawn = sorted(known, key=lambda each: -abs(each[2] - each[1]))[:MOST]
+    drawn = sorted(distances, key=lambda each: -abs(each[2] - each[1]))[:MOST]
     axis = spanned([end for each in drawn for end in each[1:]], *ROW_PIXELS)
     shapes = []
-    for place, (case, first, second) in enumerate(drawn):
+    for row, (case, first, second) in enumerate(drawn):
         words = f"{case}: {first:.5g} m, then {second:.5g} m ({second - first:+.4g} m)"
-        x, y = (axis.at(first), axis.at(second)), row_at(place)
+        x, y = (axis.at(first), axis.at(second)), row_at(row)
         shapes += [
             Shape("interval-line", f"M{x[0]:.1f} {y}H{x[1]:.1f}", words),
             Shape("effect", dot(x[0], y, 4.0), words),
@@ -103,11 +103,13 @@ def dumbbells(differences: Iterable[Difference]) -> Dumbbells | None:
     names = [case if len(case) <= _LETTERS else f"…{case[1 - _LETTERS :]}" for case, _, _ in drawn]
     about = "Braking distance of A and B in each case that differs; the table of differences has the numbers"
     x_title = "braking distance, m; open: A, filled: B"
-    return Dumbbells(rows_plot(names, shapes, axis.tick_marks(7), about, x_title), len(known) - len(drawn))
+    return Dumbbells(
+        rows_plot(names, shapes, axis.tick_marks(7), about, x_title), len(distances) - len(drawn)
+    )
 
 
 def quantity_title(difference: Difference) -> str:
-    """Return what a quantity is called; a name that is no measure of a case and no channel stays."""
+    """Return the title of a quantity; a name that is neither a measure of a case nor a channel stays."""
     if not difference.case:
         return channel_title(difference.quantity)
     measure, wheelset = without_wheelset(difference.quantity)
@@ -121,22 +123,22 @@ def quantity_title(difference: Difference) -> str:
 def in_page_units(difference: Difference) -> Difference:
     """Return a difference of measures in the units of every page: kN, and shares in %."""
     measure, _ = without_wheelset(difference.quantity)
-    own = measure_heading(measure).unit if difference.case else ""
-    unit = shown_unit(measure, own or difference.unit)
+    measure_unit = measure_heading(measure).unit if difference.case else ""
+    unit = shown_unit(measure, measure_unit or difference.unit)
     if unit == difference.unit or not {unit, difference.unit} <= SIZES.keys():
         return difference
     size = SIZES[unit] / SIZES[difference.unit]
     return dataclasses.replace(
         difference,
         unit=unit,
-        first=_scaled(difference.first, size),
-        second=_scaled(difference.second, size),
+        first=_scaled_value(difference.first, size),
+        second=_scaled_value(difference.second, size),
         deviation=None if difference.deviation is None else difference.deviation / size,
         allowed=None if difference.allowed is None else difference.allowed / size,
     )
 
 
-def _scaled(value: Value, size: float) -> Value:
+def _scaled_value(value: Value, size: float) -> Value:
     return value if isinstance(value, str) else value / size
 
 
@@ -146,13 +148,13 @@ _DIFFERENCE_HEIGHT: Final = 0.75
 
 def overlay_drawings(overlay: Overlay) -> list[Drawing]:
     """Return a drawing of each channel and its difference: a page of paper holds some, not all."""
-    return [panels_over_time(overlay.trace, _panels(channel)) for channel in overlay.channels]
+    return [panels_over_time(overlay.trace, _channel_panels(channel)) for channel in overlay.channels]
 
 
 def overlay_json(overlay: Overlay) -> str:
-    """Return what the script draws an overlay from, over time and over distance."""
+    """Return the data from which the script draws an overlay, over time and over distance."""
     trace = overlay.trace
-    marks = [mark for channel in overlay.channels for mark in _marks(channel)]
+    marks = [mark for channel in overlay.channels for mark in _channel_marks(channel)]
     return script_json(
         {
             "id": printable(overlay.title),
@@ -163,13 +165,15 @@ def overlay_json(overlay: Overlay) -> str:
             "over_distance": packed(overlay.over_distance.curves),
             "marks": [mark._asdict() for mark in marks],
             "marks_over_distance": [mark._asdict() for mark in _marks_over_distance(overlay)],
-            "panels": [panel_form(*panel) for channel in overlay.channels for panel in _panels(channel)],
+            "panels": [
+                panel_form(*panel) for channel in overlay.channels for panel in _channel_panels(channel)
+            ],
         }
     )
 
 
 def sampling_text(overlay: Overlay) -> str:
-    """Return how the points of the lines were taken from the samples."""
+    """Return the sentence on how the points of the lines were taken from the samples."""
     every = [f"{1e3 * interval:.4g} ms" for interval in overlay.intervals]
     sampled = (
         f"every {every[0]}" if every[0] == every[1] else f"every {every[0]} in A and every {every[1]} in B"
@@ -180,62 +184,74 @@ def sampling_text(overlay: Overlay) -> str:
     )
 
 
-def _panels(each: ChannelDifference) -> list[tuple[Panel, Sequence[PlotLine]]]:
-    name, unit = each.channel, _axis_unit(each)
+def _channel_panels(difference: ChannelDifference) -> list[tuple[Panel, Sequence[PlotLine]]]:
+    name, unit = difference.channel, _axis_unit(difference)
     title = printable(channel_title(name))
     sides = (
         PlotLine(curve_name("first", name), "A", "side-a"),
         PlotLine(curve_name("second", name), "B", "side-b"),
     )
-    band = [] if each.allowed is None else [-each.allowed, each.allowed]
+    band = [] if difference.allowed is None else [-difference.allowed, difference.allowed]
     return [
         (Panel(printable(f"sides-of-{name}"), title, unit, (name,), include=()), sides),
         (
-            Panel(_key(name), f"B - A: {title}", unit, (name,), _DIFFERENCE_HEIGHT, (0.0, *band)),
+            Panel(_difference_key(name), f"B - A: {title}", unit, (name,), _DIFFERENCE_HEIGHT, (0.0, *band)),
             [PlotLine(curve_name("difference", name), "B - A", "difference")],
         ),
     ]
 
 
-def _marks(each: ChannelDifference) -> Iterator[Mark]:
+def _channel_marks(difference: ChannelDifference) -> Iterator[Mark]:
     """Yield the band of the tolerance and the worst instant."""
-    key = _key(each.channel)
-    if each.allowed is not None:
-        yield Mark(key, "tolerance", f"allowed ±{_with_unit(each, number(each.allowed))}", y=each.allowed)
-    if each.worst is not None:
-        judged: Status = "pass" if each.within else "fail"
-        yield from _worst(each, each.worst, "s", "not_applicable" if each.within is None else judged)
+    key = _difference_key(difference.channel)
+    if difference.allowed is not None:
+        yield Mark(
+            key,
+            "tolerance",
+            f"allowed ±{_with_unit(difference, number(difference.allowed))}",
+            y=difference.allowed,
+        )
+    if difference.worst is not None:
+        judged: Status = "pass" if difference.within else "fail"
+        yield from _worst_mark(
+            difference, difference.worst, "s", "not_applicable" if difference.within is None else judged
+        )
 
 
 def _marks_over_distance(overlay: Overlay) -> Iterator[Mark]:
     """Yield the worst places; no tolerance, which is for samples of the same time."""
     for each in overlay.channels:
         if (worst := overlay.over_distance.worst.get(each.channel)) is not None:
-            yield from _worst(each, worst, "m", "not_applicable")
+            yield from _worst_mark(each, worst, "m", "not_applicable")
 
 
-def _worst(each: ChannelDifference, worst: WorstInstant, unit: str, status: Status) -> Iterator[Mark]:
+def _worst_mark(
+    difference: ChannelDifference, worst: WorstInstant, unit: str, status: Status
+) -> Iterator[Mark]:
     apart = worst.second - worst.first
     if not apart:
         return
-    label = f"largest {_with_unit(each, f'{apart:+.4g}')} at {number(worst.at)} {unit}"
-    if not holds(each.channel) and relative_percent(worst.first, worst.second, each.unit) is not None:
-        label += f", {relative_text(worst.first, worst.second, each.unit)} % of A"
-    yield Mark(_key(each.channel), "point", label, worst.at, worst.at, apart, status=status)
+    label = f"largest {_with_unit(difference, f'{apart:+.4g}')} at {number(worst.at)} {unit}"
+    if (
+        not holds(difference.channel)
+        and relative_percent(worst.first, worst.second, difference.unit) is not None
+    ):
+        label += f", {relative_text(worst.first, worst.second, difference.unit)} % of A"
+    yield Mark(_difference_key(difference.channel), "point", label, worst.at, worst.at, apart, status=status)
 
 
-def _axis_unit(each: ChannelDifference) -> str:
-    if holds(each.channel):
+def _axis_unit(difference: ChannelDifference) -> str:
+    if holds(difference.channel):
         return "number of the state"
-    return "dimensionless" if each.unit == "1" else printable(each.unit)
+    return "dimensionless" if difference.unit == "1" else printable(difference.unit)
 
 
-def _key(channel: str) -> str:
+def _difference_key(channel: str) -> str:
     return printable(f"difference-of-{channel}")
 
 
-def _with_unit(each: ChannelDifference, text: str) -> str:
-    return text if each.unit == "1" else printable(f"{text} {each.unit}")
+def _with_unit(difference: ChannelDifference, text: str) -> str:
+    return text if difference.unit == "1" else printable(f"{text} {difference.unit}")
 
 
 _PAIRED: Final[dict[str, Any]] = {
@@ -332,7 +348,7 @@ def differences_table(differences: Sequence[Difference]) -> Table:
 
 
 def parameters_table(changes: Sequence[ParameterChange]) -> Table:
-    """Return what was changed between two runs, and in which cases."""
+    """Return the changes between two runs, each with its cases."""
     return Table(_PARAMETERS, changes)
 
 

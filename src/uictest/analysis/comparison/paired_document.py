@@ -23,13 +23,13 @@ _SHORT: Final = 24
 
 
 def names_of(compared: PairedComparison) -> tuple[str, str]:
-    """Return what the sides are called in tables."""
+    """Return the names of the sides in tables."""
     sides = (compared.first, compared.second)
     return sides if max(map(len, sides)) <= _SHORT else ("A", "B")
 
 
 def method(compared: PairedComparison) -> str:
-    """Return how paired differences are made."""
+    """Return the sentences on how paired differences are made."""
     first, second = names_of(compared)
     return (
         f"{second} - {first}, stop by stop under the same noise: mean with its interval by Student's t,"
@@ -61,7 +61,7 @@ def variants_document(compared: Sequence[PairedComparison]) -> Document:
 
 
 def group_text(group: PairedGroup, compared: PairedComparison) -> str:
-    """Return which stops of a group pair."""
+    """Return the sentence on which stops of a group pair."""
     pairs = f"{group.name}: {counted(group.pairs, 'pair')}, {evaluation.seeds_text(group.seeds)}"
     if group.draws < group.pairs:
         pairs += f"; only {counted(group.draws, 'draw')} of noise, so that the intervals are too narrow"
@@ -88,35 +88,35 @@ def interval_text(estimate: Estimate) -> str:
     return "-" if any(map(math.isnan, ends)) else " .. ".join(map(number, ends))
 
 
-def _larger(each: PairedDifference) -> str:
+def _larger_count_text(each: PairedDifference) -> str:
     return f"{each.larger} of {each.pairs}" + (f" ({each.missing} without)" if each.missing else "")
 
 
-def _percent(each: PairedDifference) -> str:
+def _percent_text(each: PairedDifference) -> str:
     """Return the mean difference in per cent of the median of the first side; `-` where that is 0."""
     return percent_text(relative_percent(each.first, each.first + each.mean.value, each.unit))
 
 
-def _columns(first: str, second: str) -> tuple[Column[PairedDifference], ...]:
+def _difference_columns(first: str, second: str) -> tuple[Column[PairedDifference], ...]:
     return (
         Column(heading="quantity", text=lambda each: each.quantity),
         Column(heading=first, text=lambda each: number(each.first), rank=4, right=True),
         Column(heading=second, text=lambda each: number(each.second), rank=4, right=True),
         Column(heading="mean", text=lambda each: number(each.mean.value), right=True),
-        Column(heading=f"% of {first}", text=_percent, rank=5, right=True),
+        Column(heading=f"% of {first}", text=_percent_text, rank=5, right=True),
         Column(heading="interval", text=lambda each: interval_text(each.mean), right=True),
         Column(heading="median", text=lambda each: number(each.median.value), rank=2, right=True),
         Column(
             heading="interval of the median", text=lambda each: interval_text(each.median), rank=2, right=True
         ),
-        Column(heading=f"{second} larger", text=_larger, rank=3, right=True),
+        Column(heading=f"{second} larger", text=_larger_count_text, rank=3, right=True),
         Column(heading="unit", text=lambda each: each.unit, rank=1),
     )
 
 
 def paired_table(group: PairedGroup, compared: PairedComparison) -> Table:
     """Return the quantities of a group that differ in some pair."""
-    return Table(_columns(*names_of(compared)), differing(group), all_in="--format json")
+    return Table(_difference_columns(*names_of(compared)), differing(group), all_in="--format json")
 
 
 def effects(group: PairedGroup) -> Iterator[Effect]:

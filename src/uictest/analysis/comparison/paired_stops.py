@@ -104,10 +104,10 @@ class PairedDifference:
 
     Args:
         quantity: a column of stops, or `largest_` and a column of wheelsets.
-        unit: of all numbers.
+        unit: unit of all numbers.
         first, second: medians of both sides over the pairs.
-        mean: of the differences, with its interval by Student's t.
-        median: of the differences, with its interval by order statistics.
+        mean: mean of the differences, with its interval by Student's t.
+        median: median of the differences, with its interval by order statistics.
         larger, smaller: pairs in which the second is larger, or smaller.
         missing: pairs left out because one stop has no such number.
 
@@ -163,19 +163,21 @@ def paired_group(name: str, first: Stops, second: Stops) -> PairedGroup:
         len(common),
         len({draw.seed if random_rail else (draw.noise_key, draw.seed) for draw in common}),
         (len(first) - len(common), len(second) - len(common)),
-        tuple(_differences([(first[draw], second[draw]) for draw in common])),
+        tuple(_paired_differences([(first[draw], second[draw]) for draw in common])),
     )
 
 
-def _differences(pairs: Sequence[tuple[Figures, Figures]]) -> Iterator[PairedDifference]:
+def _paired_differences(pairs: Sequence[tuple[Figures, Figures]]) -> Iterator[PairedDifference]:
     for quantity in pairs[0][0]:
-        values = [(one[quantity], other.get(quantity, math.nan)) for one, other in pairs]
-        known = [pair for pair in values if all(map(math.isfinite, pair))]
-        if len(known) >= FEWEST_PAIRS:
-            yield _difference(quantity, known, len(values) - len(known))
+        values = [(first[quantity], second.get(quantity, math.nan)) for first, second in pairs]
+        finite_pairs = [pair for pair in values if all(map(math.isfinite, pair))]
+        if len(finite_pairs) >= FEWEST_PAIRS:
+            yield _paired_difference(quantity, finite_pairs, len(values) - len(finite_pairs))
 
 
-def _difference(quantity: str, values: Sequence[tuple[float, float]], missing: int) -> PairedDifference:
+def _paired_difference(
+    quantity: str, values: Sequence[tuple[float, float]], missing: int
+) -> PairedDifference:
     differences = [second - first for first, second in values]
     first, second = (median(side) for side in zip(*values, strict=True))
     mean = mean_of(differences, CONFIDENCE)
@@ -250,14 +252,14 @@ def groups_of(side: Side, varied: Collection[str]) -> dict[GroupKey, Group]:
     """
     groups: dict[GroupKey, Group] = {}
     for case in side.cases:
-        key = _key(case, {*varied, "seed"})
-        groups.setdefault(key, Group(_name(case, key))).stops.update(drawn_stops(case))
+        key = _group_key(case, {*varied, "seed"})
+        groups.setdefault(key, Group(_group_name(case, key))).stops.update(drawn_stops(case))
     for series in side.series:
-        key = _key(series, varied)
+        key = _group_key(series, varied)
         for speed in series.speeds:
-            name = f"{_name(series, key)}, wet stops from {speed.place}"
-            place = key._replace(speed_kmh=speed.speed_kmh, rail=speed.rail)
-            groups[place] = Group(name, _wet_stops(series, speed))
+            name = f"{_group_name(series, key)}, wet stops from {speed.place}"
+            speed_key = key._replace(speed_kmh=speed.speed_kmh, rail=speed.rail)
+            groups[speed_key] = Group(name, _wet_stops(series, speed))
     return groups
 
 
@@ -274,15 +276,17 @@ def _wet_stops(series: SeriesResult, speed: SpeedResult) -> dict[Draw, Figures]:
     }
 
 
-def _key(item: CaseResult | SeriesResult, left_out: Collection[str]) -> GroupKey:
-    kept = ((key, value) for key, value in item.parameters.items() if key not in left_out)
-    return GroupKey(item.id.partition("[")[0], frozenset(kept))
+def _group_key(item: CaseResult | SeriesResult, left_out: Collection[str]) -> GroupKey:
+    parameters = ((key, value) for key, value in item.parameters.items() if key not in left_out)
+    return GroupKey(item.id.partition("[")[0], frozenset(parameters))
 
 
-def _name(item: CaseResult | SeriesResult, key: GroupKey) -> str:
+def _group_name(item: CaseResult | SeriesResult, key: GroupKey) -> str:
     """Return the id with the values alone that the whole group has."""
-    shown = [f"{name}={value}" for name, value in item.parameters.items() if (name, value) in key.parameters]
-    return f"{key.name}[{','.join(shown)}]" if shown else key.name
+    shared_values = [
+        f"{name}={value}" for name, value in item.parameters.items() if (name, value) in key.parameters
+    ]
+    return f"{key.name}[{','.join(shared_values)}]" if shared_values else key.name
 
 
 @dataclass(frozen=True, slots=True)
@@ -310,14 +314,17 @@ def compare_paired_runs(first: RunContent, second: RunContent) -> PairedComparis
 
 
 def compare_sides(first: Side, second: Side, varied: Collection[str] = ()) -> PairedComparison:
-    """Return the differences of the groups that both sides have, under the noise that both met.
+    """Return the differences of the groups that both sides have, paired by the random seeds common to both.
 
     `varied` are the keys in which the sides differ. A group with one stop on each side is left out: it has no
     interval.
     """
     ours, theirs = (groups_of(side, varied) for side in (first, second))
     groups: list[PairedGroup] = []
-    not_paired = [*_only(first.name, ours, theirs), *_only(second.name, theirs, ours)]
+    not_paired = [
+        *_groups_without_partner(first.name, ours, theirs),
+        *_groups_without_partner(second.name, theirs, ours),
+    ]
     for key, group in ours.items():
         stops = group.stops, theirs[key].stops if key in theirs else {}
         if key not in theirs or max(map(len, stops)) < FEWEST_PAIRS:
@@ -329,7 +336,7 @@ def compare_sides(first: Side, second: Side, varied: Collection[str] = ()) -> Pa
     return PairedComparison(first.name, second.name, tuple(groups), tuple(not_paired))
 
 
-def _only(
+def _groups_without_partner(
     side: str, groups: Mapping[GroupKey, Group], others: Mapping[GroupKey, Group]
 ) -> Iterator[NotPaired]:
     """Yield the groups that this side alone has."""
@@ -369,20 +376,20 @@ def compare_variants(run: RunContent, keys: Sequence[str]) -> list[PairedCompari
     """
     parameters: list[Mapping[str, str]] = [case.parameters for case in run.results]
     parameters += [series.parameters for series in run.series]
-    known = list(dict.fromkeys(key for of_item in parameters for key in of_item))
+    known_keys = list(dict.fromkeys(key for of_item in parameters for key in of_item))
     for key in keys:
         if keys.count(key) > 1:
             raise ValueError(f"{key!r} is given {keys.count(key)} times; give every key once")
-        if key not in known:
-            guess = nearest(key, known)
+        if key not in known_keys:
+            guess = nearest(key, known_keys)
             hint = f"did you mean {guess!r}? " if guess else ""
-            listed = ", ".join(known) or "nothing"
+            listed = ", ".join(known_keys) or "nothing"
             raise ValueError(f"no case or series has a value of {key!r}; {hint}they differ in: {listed}")
-    variants = list(dict.fromkeys(variant for each in parameters if (variant := _variant(each, keys))))
+    variants = list(dict.fromkeys(variant for values in parameters if (variant := _variant(values, keys))))
     if len(variants) < 2:
         raise ValueError(f"there is one variant only, {_variant_name(variants[0])}")
-    first, *others = (_side_of_variant(run, variant, keys) for variant in variants)
-    return [compare_sides(first, other, keys) for other in others]
+    first, *later_sides = (_side_of_variant(run, variant, keys) for variant in variants)
+    return [compare_sides(first, variant_side, keys) for variant_side in later_sides]
 
 
 def _variant(parameters: Mapping[str, str], keys: Sequence[str]) -> Variant:

@@ -36,7 +36,7 @@ class ParameterChange:
     @property
     def texts(self) -> tuple[str, str]:
         """What both runs have, for a reader: as written, or `none`."""
-        return _text(self.first), _text(self.second)
+        return _value_text(self.first), _value_text(self.second)
 
 
 def change_text(change: ParameterChange) -> str:
@@ -57,43 +57,43 @@ Change = tuple[str, ParameterOfRun | None, ParameterOfRun | None]
 def parameter_changes(
     pairs: Iterable[tuple[evaluation.CaseResult, evaluation.CaseResult]],
 ) -> list[ParameterChange]:
-    """Return what differs in the parameters of pairs of cases, once for all cases alike."""
+    """Return the parameters that differ within pairs of cases, each change once with all its cases."""
     cases: dict[Change, list[str]] = {}
     for first, second in pairs:
-        for change in _changes(first, second):
+        for change in _changes_of_case(first, second):
             cases.setdefault(change, []).append(first.id)
     return [ParameterChange(*change, tuple(ids)) for change, ids in cases.items()]
 
 
-def _changes(first: evaluation.CaseResult, second: evaluation.CaseResult) -> Iterator[Change]:
-    told = first.controller_version, second.controller_version
-    # A stop that ended in an error tells no version; that is no other version.
-    told = told if all(told) else ("", "")
+def _changes_of_case(first: evaluation.CaseResult, second: evaluation.CaseResult) -> Iterator[Change]:
+    told_versions = first.controller_version, second.controller_version
+    # A stop that ended in an error tells no version, which is not another version.
+    told_versions = told_versions if all(told_versions) else ("", "")
     for role in dict.fromkeys([*first.parts, *second.parts]):
         ours, theirs = first.parts.get(role), second.parts.get(role)
-        if ours is None or theirs is None or ours.id != theirs.id or told[0] != told[1]:
-            yield from _changes_of_part(role, ours, theirs, told)
+        if ours is None or theirs is None or ours.id != theirs.id or told_versions[0] != told_versions[1]:
+            yield from _changes_of_part(role, ours, theirs, told_versions)
 
 
 def _changes_of_part(
     role: str,
     first: evaluation.EffectivePart | None,
     second: evaluation.EffectivePart | None,
-    told: tuple[str, str],
+    told_versions: tuple[str, str],
 ) -> Iterator[Change]:
     names = [None if part is None else ParameterOfRun(part.name, "", part.name) for part in (first, second)]
     if names[0] != names[1]:
         yield role, names[0], names[1]
     if first is None or second is None:
         return
-    ours, theirs = _parameters(first, told[0]), _parameters(second, told[1])
+    ours, theirs = _parameters_by_key(first, told_versions[0]), _parameters_by_key(second, told_versions[1])
     for key in dict.fromkeys([*ours, *theirs]):
-        one, other = ours.get(key), theirs.get(key)
-        if one is None or other is None or (one.value, one.unit) != (other.value, other.unit):
-            yield key, _value(one), _value(other)
+        before, after = ours.get(key), theirs.get(key)
+        if before is None or after is None or (before.value, before.unit) != (after.value, after.unit):
+            yield key, _parameter_of_run(before), _parameter_of_run(after)
 
 
-def _parameters(part: evaluation.EffectivePart, told: str) -> dict[str, evaluation.Parameter]:
+def _parameters_by_key(part: evaluation.EffectivePart, told: str) -> dict[str, evaluation.Parameter]:
     """Return the parameters of a part by key, with the version that its program said of itself."""
     parameters = {each.key: each for each in part.parameters}
     if (program := evaluation.program_of(part, told)) is not None:
@@ -103,11 +103,11 @@ def _parameters(part: evaluation.EffectivePart, told: str) -> dict[str, evaluati
     return parameters
 
 
-def _value(parameter: evaluation.Parameter | None) -> ParameterOfRun | None:
+def _parameter_of_run(parameter: evaluation.Parameter | None) -> ParameterOfRun | None:
     if parameter is None:
         return None
     return ParameterOfRun(parameter.value, parameter.unit, parameter.written)
 
 
-def _text(value: ParameterOfRun | None) -> str:
+def _value_text(value: ParameterOfRun | None) -> str:
     return "none" if value is None else value.written

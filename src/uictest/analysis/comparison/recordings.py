@@ -61,7 +61,7 @@ def compare_recordings(
     ours, theirs = (float(record["time"][-1]) for record in (first, second))
     quantities = [
         compare_numbers("", "duration", ours, theirs, tolerances, unit="s"),
-        *_channels(first, second, common),
+        *_channel_differences(first, second, common),
     ]
     differences = [difference for difference in quantities if difference is not None]
     remarkable = [difference.quantity for difference in differences if not difference.within]
@@ -70,7 +70,7 @@ def compare_recordings(
     return Comparison(*names, len(quantities), differences, overlay.remarks, [overlay])
 
 
-def _channels(
+def _channel_differences(
     first: recording.Recording, second: recording.Recording, common: Mapping[str, ChannelDifference]
 ) -> Iterator[Difference | None]:
     """Yield one item per channel compared: None where both sides are the same."""
@@ -78,19 +78,19 @@ def _channels(
         if name == recording.TIME:
             continue
         if name in common:
-            yield _channel(common[name])
+            yield _channel_difference(common[name])
         else:
             ours, theirs = (record.units.get(name, "none") for record in (first, second))
             remark = "different units" if "none" not in (ours, theirs) else "only one side has the channel"
             yield Difference("", name, ours, theirs, within=False, remark=remark)
 
 
-def _channel(channel: ChannelDifference) -> Difference | None:
-    """Return how a channel differs; None where all common samples are the same."""
+def _channel_difference(channel: ChannelDifference) -> Difference | None:
+    """Return the difference of a channel; None where all common samples are the same."""
     both = channel.samples
     lacking = np.isfinite(both.first) != np.isfinite(both.second)
     if lacking.any() or not len(both.at):
-        return _incomparable(channel, np.flatnonzero(lacking))
+        return _incomparable_channel(channel, np.flatnonzero(lacking))
     worst = channel.worst
     if worst is None or worst.first == worst.second:
         return None
@@ -107,7 +107,7 @@ def _channel(channel: ChannelDifference) -> Difference | None:
     )
 
 
-def _incomparable(channel: ChannelDifference, lacking: NDArray[np.intp]) -> Difference:
+def _incomparable_channel(channel: ChannelDifference, lacking: NDArray[np.intp]) -> Difference:
     """Return the difference of a channel that one side lacks at some instants, or that shares none."""
     both = channel.samples
     sides, remark = (math.nan, math.nan), "the two share no time"
@@ -148,27 +148,29 @@ def with_overlays(
 
     """
     cases = list(dict.fromkeys(difference.case for difference in compared.differences))
-    pairs = {case_id: pair for case_id in cases[:DRAWN] if (pair := _recordings(case_id, first, second))}
-    known = [name for pair in pairs.values() for name in _common(pair)]
-    chosen = select_channels(channels, known) if channels and pairs else None
-    overlays = [_overlay(case_id, pair, chosen, tolerances) for case_id, pair in pairs.items()]
-    remarks = list(_undrawn(cases, pairs, first, second))
+    pairs = {case_id: pair for case_id in cases[:DRAWN] if (pair := _recorded_pair(case_id, first, second))}
+    shared_names = [name for pair in pairs.values() for name in _shared_channels(pair)]
+    chosen = select_channels(channels, shared_names) if channels and pairs else None
+    overlays = [_overlay_of_case(case_id, pair, chosen, tolerances) for case_id, pair in pairs.items()]
+    remarks = list(_undrawn_stop_lines(cases, pairs, first, second))
     return dataclasses.replace(compared, overlays=overlays, undrawn=remarks)
 
 
-def _recordings(case_id: str, first: Path, second: Path) -> Pair | None:
+def _recorded_pair(case_id: str, first: Path, second: Path) -> Pair | None:
     paths = [report.recording_path(folder, case_id) for folder in (first, second)]
     if not all(path.is_file() for path in paths):
         return None
     return in_shown_units(recording.read_parquet(paths[0])), in_shown_units(recording.read_parquet(paths[1]))
 
 
-def _common(pair: Pair) -> list[str]:
+def _shared_channels(pair: Pair) -> list[str]:
     return common_channels(pair[0].units, pair[1].units)
 
 
-def _overlay(case_id: str, pair: Pair, chosen: Sequence[str] | None, tolerances: Tolerances) -> Overlay:
-    common = _common(pair)
+def _overlay_of_case(
+    case_id: str, pair: Pair, chosen: Sequence[str] | None, tolerances: Tolerances
+) -> Overlay:
+    common = _shared_channels(pair)
     names = default_channels(FIRST_DRAWN, common) if chosen is None else chosen
     allowed = {name: allowed_of(name, pair, tolerances) for name in common if tolerances.names(name)}
     return overlay_of(
@@ -178,8 +180,10 @@ def _overlay(case_id: str, pair: Pair, chosen: Sequence[str] | None, tolerances:
     )
 
 
-def _undrawn(cases: Sequence[str], pairs: dict[str, Pair], first: Path, second: Path) -> Iterator[str]:
-    """Yield which stops that differ are not drawn, and why."""
+def _undrawn_stop_lines(
+    cases: Sequence[str], pairs: dict[str, Pair], first: Path, second: Path
+) -> Iterator[str]:
+    """Yield a line for the stops that differ and are not drawn, with the reason."""
     for case_id in cases[:DRAWN]:
         if case_id not in pairs:
             recorded = [

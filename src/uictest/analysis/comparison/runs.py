@@ -45,18 +45,18 @@ def differences_of_series(
     )
     for name in dict.fromkeys([*verdicts, *others]):
         yield status_difference(first.id, StatusChange(verdicts.get(name), others.get(name), name))
-    counts, other_counts = _counts(first), _counts(second)
+    counts, other_counts = _stop_counts(first), _stop_counts(second)
     for quantity in dict.fromkeys([*counts, *other_counts]):
         sides = counts.get(quantity, "none"), other_counts.get(quantity, "none")
         yield None if sides[0] == sides[1] else Difference(first.id, quantity, *sides, within=False)
-    numbers, other_numbers = _numbers(first), _numbers(second)
+    numbers, other_numbers = _series_numbers(first), _series_numbers(second)
     for place, name in dict.fromkeys([*numbers, *other_numbers]):
         before, after = (side.get((place, name), math.nan) for side in (numbers, other_numbers))
         quantity = f"{name} from {place}" if place else name
         yield compare_numbers(first.id, quantity, before, after, tolerances, SERIES_MEASURES[name].unit)
 
 
-def _counts(result: SeriesResult) -> dict[str, str]:
+def _stop_counts(result: SeriesResult) -> dict[str, str]:
     return {
         f"{role} stops from {speed.place}": f"{each.counted} of {each.run}"
         for speed in result.speeds
@@ -64,7 +64,7 @@ def _counts(result: SeriesResult) -> dict[str, str]:
     }
 
 
-def _numbers(result: SeriesResult) -> dict[tuple[str, str], float]:
+def _series_numbers(result: SeriesResult) -> dict[tuple[str, str], float]:
     """Return the measures of a series, and those of each rail (with its speed) where it has several."""
     tables = {"": result.measures, **{each.place: each.measures for each in result.speeds if each.rail}}
     return {
@@ -95,12 +95,14 @@ def compare_accepted_series(
     before = {result.id: result for result in accepted}
     quantities: dict[str, Sequence[Difference | None]] = {}
     for result in run:
-        known = before.pop(result.id, None)
+        accepted_result = before.pop(result.id, None)
         quantities[result.id] = (
-            [_new(result)] if known is None else list(differences_of_series(known, result, tolerances))
+            [_new_series(result)]
+            if accepted_result is None
+            else list(differences_of_series(accepted_result, result, tolerances))
         )
     missing = [result for result in before.values() if scope.misses(result.id, result.file)]
-    quantities |= {result.id: [_missing(result)] for result in missing}
+    quantities |= {result.id: [_missing_series(result)] for result in missing}
     return AcceptedSeries(
         quantities,
         {result.id: result.file for result in (*run, *missing)},
@@ -108,12 +110,12 @@ def compare_accepted_series(
     )
 
 
-def _new(result: SeriesResult) -> Difference:
+def _new_series(result: SeriesResult) -> Difference:
     remark = "the baseline has no such series; --accept adds it"
     return Difference(result.id, "series", "missing", result.outcome, within=False, remark=remark)
 
 
-def _missing(result: SeriesResult) -> Difference:
+def _missing_series(result: SeriesResult) -> Difference:
     remark = f"{result.file} no longer has this series; --accept drops it"
     return Difference(result.id, "series", result.outcome, "missing", within=False, remark=remark)
 
@@ -130,7 +132,7 @@ def compare_runs(first: report.RunContent, second: report.RunContent, tolerances
     ours, theirs = ({result.id: result for result in run.results} for run in (first, second))
     quantities: list[Difference | None] = []
     for case_id in dict.fromkeys([*ours, *theirs]):
-        quantities += _case(case_id, ours.get(case_id), theirs.get(case_id), tolerances)
+        quantities += _differences_of_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances)
     quantities += series_differences(first.series, second.series, tolerances)
     both = [(ours[case_id], theirs[case_id]) for case_id in ours if case_id in theirs]
     return Comparison(
@@ -152,7 +154,7 @@ def stops_of_series(first: report.RunContent, second: report.RunContent) -> Iter
             yield case, theirs[case.id]
 
 
-def _case(
+def _differences_of_case(
     case_id: str,
     first: evaluation.CaseResult | None,
     second: evaluation.CaseResult | None,
@@ -173,30 +175,32 @@ def case_differences(
     case_id = first.id
     yield status_difference(case_id, StatusChange(first.outcome, second.outcome))
     if first.repeats or second.repeats:
-        stops = _stops(first), _stops(second)
+        stops = _stops_text(first), _stops_text(second)
         yield None if stops[0] == stops[1] else Difference(case_id, "stops", *stops, within=False)
-        yield compare_numbers(case_id, "share_passed", _share(first), _share(second), tolerances)
+        yield compare_numbers(
+            case_id, "share_passed", _share_passed(first), _share_passed(second), tolerances
+        )
     verdicts, others = ({each.id: each.status for each in side.criteria} for side in (first, second))
     for name in dict.fromkeys([*verdicts, *others]):
         yield status_difference(case_id, StatusChange(verdicts.get(name), others.get(name), name))
-    ours, theirs = _measures(first), _measures(second)
+    ours, theirs = _all_measures(first), _all_measures(second)
     for name in dict.fromkeys([*ours, *theirs]):
         sides = ours.get(name, math.nan), theirs.get(name, math.nan)
         yield compare_numbers(case_id, name, *sides, tolerances, column_unit(name))
 
 
-def _stops(result: evaluation.CaseResult) -> str:
-    """Return how many stops a case has and under which rule they come out."""
+def _stops_text(result: evaluation.CaseResult) -> str:
+    """Return the number of stops of a case, with the rule for its outcome where it is repeated."""
     repeats = result.repeats
     return "1" if repeats is None else f"{len(repeats.stops)}, rule {report.rule_text(repeats)}"
 
 
-def _share(result: evaluation.CaseResult) -> float:
+def _share_passed(result: evaluation.CaseResult) -> float:
     repeats = result.repeats
     return float(result.outcome == "pass") if repeats is None else repeats.share
 
 
-def _measures(result: evaluation.CaseResult) -> dict[str, float]:
+def _all_measures(result: evaluation.CaseResult) -> dict[str, float]:
     measures = dict(result.measures or {})
     for position, wheelset in enumerate(result.wheelsets, start=1):
         measures |= {wheelset_quantity(name, position): value for name, value in wheelset.items()}
@@ -206,19 +210,19 @@ def _measures(result: evaluation.CaseResult) -> dict[str, float]:
 def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[str]:
     """Yield the inputs that differ between two runs: they explain differences but do not count as such."""
     ours, theirs = first.manifest, second.manifest
-    yield from _changes({"seed": ours.seed}, {"seed": theirs.seed})
-    yield from _changes(ours.versions, theirs.versions, "versions: ")
-    yield from _changes(ours.inputs, theirs.inputs, "inputs: ")
+    yield from _changed_inputs({"seed": ours.seed}, {"seed": theirs.seed})
+    yield from _changed_inputs(ours.versions, theirs.versions, "versions: ")
+    yield from _changed_inputs(ours.inputs, theirs.inputs, "inputs: ")
 
 
-def _changes(
+def _changed_inputs(
     first: Mapping[str, str | int | None], second: Mapping[str, str | int | None], prefix: str = ""
 ) -> Iterator[str]:
     for name in dict.fromkeys([*first, *second]):
         if first.get(name) != second.get(name):
-            yield f"{prefix}{name}: {_shown(first.get(name))} -> {_shown(second.get(name))}"
+            yield f"{prefix}{name}: {_input_text(first.get(name))} -> {_input_text(second.get(name))}"
 
 
-def _shown(value: str | int | None) -> str:
+def _input_text(value: str | int | None) -> str:
     text = "none" if value is None else str(value)
     return f"{text[:12]}..." if len(text) == _DIGEST_LENGTH else text

@@ -24,7 +24,7 @@ class Tolerance(NamedTuple):
     relative: float
 
     def allowed(self, extent: float) -> float:
-        """Return how far two values with this range may lie apart."""
+        """Return the largest difference allowed between two values with this range."""
         return max(self.absolute, self.relative * extent if math.isfinite(extent) else 0.0)
 
 
@@ -57,7 +57,7 @@ class Tolerances(NamedTuple):
         """
         parts_by_name: dict[str | None, dict[str, float]] = {}
         for text in texts:
-            name, part, number = _read(text)
+            name, part, number = _parsed_tolerance(text)
             # To the end: the last pattern that matches counts.
             parts_by_name[name] = {**parts_by_name.pop(name, {}), part: number}
         tolerances = {
@@ -68,7 +68,7 @@ class Tolerances(NamedTuple):
         return cls(general, tuple((name, each) for name, each in tolerances.items() if name is not None))
 
 
-def _read(text: str) -> tuple[str | None, str, float]:
+def _parsed_tolerance(text: str) -> tuple[str | None, str, float]:
     """Return the name, the part (absolute or relative) and the number of a tolerance."""
     match = _WRITTEN.fullmatch(text.strip())
     try:
@@ -84,7 +84,7 @@ def _read(text: str) -> tuple[str | None, str, float]:
 def compare_numbers(
     case: str, quantity: str, first: float, second: float, tolerances: Tolerances, unit: str = ""
 ) -> Difference | None:
-    """Return how two numbers differ, None where they are the same. NaN equals NaN alone."""
+    """Return the difference of two numbers, None where they are the same. NaN equals NaN alone."""
     if first == second or (math.isnan(first) and math.isnan(second)):
         return None
     if not (math.isfinite(first) and math.isfinite(second)):

@@ -26,8 +26,8 @@ class Drawn:
     """The outcome of one stop, or one series, with some values of the numbers, and its verdicts by criterion.
 
     Args:
-        outcome: of the stop or series.
-        statuses: of its criteria, then of their other readings, by id.
+        outcome: outcome of the stop or series.
+        statuses: statuses of its criteria, then of their other readings, by id.
         margins: shares of the limits, of those that have one.
         readings: the readings, which decide nothing: id -> that of the criterion.
         is_test: whether nothing keeps it from counting as a test.
@@ -83,22 +83,24 @@ class Stops:
         return [place for place, drawn in self.ends.items() if all(each.outcome == "error" for each in drawn)]
 
     @cached_property
-    def _usual(self) -> dict[str, str]:
+    def _usual_statuses(self) -> dict[str, str]:
         return {}
 
     def usual(self, criterion: str) -> str:
-        """Return what a verdict is at the nominal values, under most seeds."""
-        if criterion not in self._usual:
-            self._usual[criterion] = usual(self.nominal, criterion)
-        return self._usual[criterion]
+        """Return the status of a criterion at the nominal values, under most seeds."""
+        if criterion not in self._usual_statuses:
+            self._usual_statuses[criterion] = usual(self.nominal, criterion)
+        return self._usual_statuses[criterion]
 
     def stands(self, drawn: Drawn, criterion: str) -> bool | None:
-        """Return whether a verdict is what it is at the nominal values; None for one that does not count.
+        """Return whether a verdict is the same as at the nominal values; None for one that does not count.
 
         What is required of a test does not count where there is none.
         """
-        own = self.nominal[0].readings.get(criterion, criterion)
-        of_validity = own in self.validity or (criterion == OUTCOME and not self._is_nominally_a_test)
+        read_criterion = self.nominal[0].readings.get(criterion, criterion)
+        of_validity = read_criterion in self.validity or (
+            criterion == OUTCOME and not self._is_nominally_a_test
+        )
         if drawn.outcome == "error" or (not drawn.is_test and not of_validity):
             return None
         return drawn.status(criterion) == self.usual(criterion)
@@ -190,24 +192,24 @@ class Scan:
         return sorted(self.standing, reverse=self.end == 0.0)
 
     @property
-    def _change(self) -> tuple[float, float] | None:
+    def _single_change(self) -> tuple[float, float] | None:
         """The neighbouring places between which most seeds turn; None without a single such change."""
         changes = [
-            (one, other)
-            for one, other in pairwise(self._from_nominal)
-            if (self.standing[one] > 0.5) != (self.standing[other] > 0.5)
+            (before, after)
+            for before, after in pairwise(self._from_nominal)
+            if (self.standing[before] > 0.5) != (self.standing[after] > 0.5)
         ]
         return changes[0] if len(changes) == 1 else None
 
     @property
     def middle(self) -> float | None:
         """The middle of that change."""
-        return None if self._change is None else 0.5 * sum(self._change)
+        return None if self._single_change is None else 0.5 * sum(self._single_change)
 
     @property
     def turning_value(self) -> float | None:
         """The first place at which the verdict is turned under most seeds; None without a single change."""
-        return None if self._change is None else self._change[1]
+        return None if self._single_change is None else self._single_change[1]
 
     @property
     def values(self) -> tuple[float | None, float, float | None]:
@@ -232,7 +234,7 @@ def scan_side_by_side(
 
     Args:
         turning: the ends at which each verdict turns under some seed.
-        nominal_places: of the numbers, in their ranges.
+        nominal_places: nominal places of the numbers, in their ranges.
         stops: say what a verdict is at the nominal values.
         moved: runs the stops.
         seeds: under which each place is run.

@@ -48,7 +48,7 @@ class Effort:
     """How many stops are run; the numbers are chosen: enough draws for :data:`FIRM_SHARE`, if most count.
 
     Args:
-        blocks: of draws of all numbers together, each scrambled for itself.
+        blocks: blocks of draws of all numbers together, each scrambled for itself.
         block: draws of a block, a power of two.
         seeds: under which the nominal stop, and those of a search for a turning value, are run.
         seeds_at_ends: under which a stop with one number at an end of its range is run.
@@ -61,7 +61,7 @@ class Effort:
     seeds_at_ends: int = 4
 
     def stops(self, numbers: int) -> int:
-        """Return how many stops are run before any turning value is searched."""
+        """Return the number of stops that are run before any turning value is searched."""
         return self.seeds + 2 * numbers * self.seeds_at_ends + self.draws
 
     @property
@@ -120,29 +120,29 @@ class FirmnessStudy:
         stops = Stops(
             drawn[: len(nominal)],
             {(number, end): of_ends[number, float(end)] for number, end in places},
-            self._drawn(points, range(len(points)) if self.random_rail else [0] * len(points)),
-            None if self.hold is None or not len(points) else self.hold(self._columns(points)),
+            self._run_at_places(points, range(len(points)) if self.random_rail else [0] * len(points)),
+            None if self.hold is None or not len(points) else self.hold(self._number_columns(points)),
             self.validity,
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
         # A verdict that turns over the seeds, too, turns at no end.
         turning = {
             each: [place for place in stops.ends if stops.turned_at(place, each)]
-            if not self._noisy(each, stops)
+            if not self._turns_by_noise(each, stops)
             else []
             for each in (OUTCOME, *criteria)
         }
         nominal_places = [each.nominal_place for each in self.numbers]
         scans = scan_side_by_side(turning, nominal_places, stops, moved, effort.seeds)
         turns = {
-            each: tuple(self._turn(each, place, scans[each, place], stops) for place in of_verdict)
+            each: tuple(self._turn_of_number(each, place, scans[each, place], stops) for place in of_verdict)
             for each, of_verdict in turning.items()
         }
         outcomes = Counter(each.outcome for each in stops.joint)
         return Firmness(
             **self._firmness(OUTCOME, stops, turns[OUTCOME]),
             criteria=tuple(VerdictFirmness(**self._firmness(each, stops, turns[each])) for each in criteria),
-            numbers=tuple(self._effect(number, stops, criteria) for number in range(count)),
+            numbers=tuple(self._number_effect(number, stops, criteria) for number in range(count)),
             draws=len(stops.joint),
             infeasible=outcomes["error"],
             outcomes=dict(outcomes),
@@ -154,13 +154,13 @@ class FirmnessStudy:
             without_range=tuple(dict.fromkeys(without_range)),
         )
 
-    def _drawn(self, places: NDArray[np.float64], seeds: Iterable[int]) -> Sequence[Drawn]:
+    def _run_at_places(self, places: NDArray[np.float64], seeds: Iterable[int]) -> Sequence[Drawn]:
         """Run stops whose numbers lie at places of their ranges, NaN for the nominal value."""
         if not len(places):
             return ()
-        return self.judge(self._columns(places), [*seeds])
+        return self.judge(self._number_columns(places), [*seeds])
 
-    def _columns(self, places: NDArray[np.float64]) -> list[Column]:
+    def _number_columns(self, places: NDArray[np.float64]) -> list[Column]:
         return [each.at(places[:, k]) for k, each in enumerate(self.numbers)]
 
     def _run_moved(self, stops: Sequence[tuple[Setting, int]]) -> Sequence[Drawn]:
@@ -168,13 +168,13 @@ class FirmnessStudy:
         for row, ((number, place), _) in enumerate(stops):
             if number is not None:
                 places[row, number] = place
-        return self._drawn(places, [seed for _, seed in stops])
+        return self._run_at_places(places, [seed for _, seed in stops])
 
     def _run_more(self, stops: Sequence[tuple[Setting, int]]) -> Sequence[Drawn]:
         self.expect(len(stops))
         return self._run_moved(stops)
 
-    def _noisy(self, criterion: str, stops: Stops) -> bool:
+    def _turns_by_noise(self, criterion: str, stops: Stops) -> bool:
         nominal = stops.usual(criterion)
         return any(each.outcome != "error" and each.status(criterion) != nominal for each in stops.nominal)
 
@@ -183,11 +183,11 @@ class FirmnessStudy:
         joint = [stops.stands(each, criterion) for each in stops.joint]
         size = self.effort.block
         shares = [share(joint[first : first + size]) for first in range(0, len(joint), size)]
-        known = [each for each in shares if each is not None]
+        counted_shares = [each for each in shares if each is not None]
         counted, turned = len(joint) - joint.count(None), joint.count(False)
         # An end that cannot be run shows nothing, whatever the draws say.
-        shown = counted and not turned and not stops.not_run
-        at_least = _DOUBT ** (1.0 / counted) if shown else None
+        no_turn_seen = counted and not turned and not stops.not_run
+        at_least = _DOUBT ** (1.0 / counted) if no_turn_seen else None
         calibrated = None
         if stops.calibrated is not None:
             pairs = zip(joint, stops.calibrated, strict=True)
@@ -196,20 +196,22 @@ class FirmnessStudy:
         return {
             "criterion": criterion,
             "nominal": stops.usual(criterion),
-            "status": _status(self._noisy(criterion, stops), bool(turns or turned), at_least),
+            "status": _firmness_status(
+                self._turns_by_noise(criterion, stops), bool(turns or turned), at_least
+            ),
             "counted": counted,
             "turned": turned,
             "share": share(joint),
             "share_at_least": at_least,
-            "lowest_block": min(known, default=None),
-            "highest_block": max(known, default=None),
+            "lowest_block": min(counted_shares, default=None),
+            "highest_block": max(counted_shares, default=None),
             "calibrated": calibrated,
-            "margin": _median(each.margins.get(criterion) for each in stops.nominal),
+            "margin": _known_median(each.margins.get(criterion) for each in stops.nominal),
             "turned_by": turns,
         }
 
-    def _turn(self, criterion: str, place: Place, scan: Scan, stops: Stops) -> Turn:
-        """Return where a number turns a verdict, and the criterion with which the outcome turns."""
+    def _turn_of_number(self, criterion: str, place: Place, scan: Scan, stops: Stops) -> Turn:
+        """Return the value at which a number turns a verdict, with the criterion that turns the outcome."""
         ranged, end = self.numbers[place[0]], place[1]
         turns_at, stands_to, turned_from = scan.values
         # Rounded to where it was seen: what stands towards the nominal value, what is turned to the end.
@@ -223,12 +225,12 @@ class FirmnessStudy:
             *(value, ranged.rounded_text(stands_to, up=not end), first_turned, ranged.ends[end].text),
         )
 
-    def _effect(self, number: int, stops: Stops, criteria: Sequence[str]) -> NumberEffect:
+    def _number_effect(self, number: int, stops: Stops, criteria: Sequence[str]) -> NumberEffect:
         ranged = self.numbers[number]
         margins = {
             each: (
-                _median(drawn.margins.get(each) for drawn in stops.ends[number, 0]),
-                _median(drawn.margins.get(each) for drawn in stops.ends[number, 1]),
+                _known_median(drawn.margins.get(each) for drawn in stops.ends[number, 0]),
+                _known_median(drawn.margins.get(each) for drawn in stops.ends[number, 1]),
             )
             for each in criteria
         }
@@ -237,7 +239,7 @@ class FirmnessStudy:
         return NumberEffect(*about, margins, ranged.value.prior)
 
 
-def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
+def _firmness_status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
     if noisy:
         return "noise"
     if turns:
@@ -245,5 +247,5 @@ def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
     return "firm" if at_least is not None and at_least >= FIRM_SHARE else "not_shown"
 
 
-def _median(values: Iterable[float | None]) -> float | None:
+def _known_median(values: Iterable[float | None]) -> float | None:
     return median(known) if (known := [each for each in values if each is not None]) else None

@@ -24,7 +24,7 @@ class StopFriction(NamedTuple):
         standing: `not seen` where no fit is possible, `not one` where no single coefficient describes the
             stop.
         value: initial friction coefficient of a rail that is the same everywhere, or its lower bound.
-        half_width: of its 95 % confidence interval.
+        half_width: half width of its 95 % confidence interval.
         remark: why there is no fit.
     """
 
@@ -103,10 +103,10 @@ class LoggedStop:
     """A judged stop of a log.
 
     Args:
-        result: of the stop.
+        result: result of the stop.
         speed: at the brake command, km/h.
         dry: whether it is judged as one on a dry rail.
-        case: that it was judged as.
+        case: case that it was judged as.
         place: recorded distance at the brake command, m.
     """
 

@@ -104,7 +104,7 @@ def passed_over_table(events: Sequence[LoggedEvent]) -> report.CampaignTable:
 
 
 def _event_record(event: LoggedEvent, position: float = math.nan) -> dict[str, Cell]:
-    """Return where an application of the brake lies in its log and on the line, and why it is no stop."""
+    """Return where an application of the brake lies in its log and on the line, and why it is not a stop."""
     return {
         "file": event.file.as_posix(),
         "sample": event.row + 1,
@@ -152,7 +152,7 @@ class StopsTogether:
             self._frictions[result.id] = friction_of(stop, case.scenario)
 
     def campaign(self, results: Sequence[CaseResult]) -> report.Campaign:
-        """Return what the stops observed show together; `results` are those of all."""
+        """Return the findings over all stops observed; `results` are those of all."""
         passed_over = (passed_over_table(self._passed_over),) if self._passed_over else ()
         if not results:
             return report.Campaign((self.without_stop,), passed_over)
@@ -178,7 +178,7 @@ class StopsTogether:
         return "no stop found: by the channels of the map, the brake is never applied"
 
     def _record_sentences(self) -> Iterator[str]:
-        """Yield how many stops are none of the scenario, and how many by each check of the record."""
+        """Yield the number of stops that are not of the scenario, in all and by each check of the record."""
         of_stops = [
             [each.id for each in stop.result.criteria if each.layer == "record" and each.status == "fail"]
             for stop in self._stops

@@ -1,4 +1,4 @@
-"""Wet stops of a log beside the dry ones of the same nominal speed, judged as a series."""
+"""Wet stops of a log compared with the dry ones of the same nominal speed, judged as a series."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _SHOWN: Final = (
 
 
 def wet_series(stops: Sequence[LoggedStop]) -> judged_series.SeriesResult | None:
-    """Return the wet stops as a series beside the dry ones; None without wet stops in a speed group."""
+    """Return the wet stops as a series with the dry ones; None without wet stops in a speed group."""
     dry = [stop for group in references(stops).values() for stop in group]
     wet = [stop for stop in stops if stop.grouped and not stop.dry]
     ordered = [*dry, *wet]

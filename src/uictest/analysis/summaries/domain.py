@@ -27,7 +27,7 @@ _MOST_KNOWN: Final = 1000
 """Groups whose conditions, some ten kilobytes each, are kept: drawn values may give each case its own."""
 
 _Masks = dict[str, NDArray[np.bool_]]
-"""Key of a condition -> in which rows it lies outside."""
+"""Key of a condition -> mask of the rows in which it lies outside."""
 
 
 class DomainTally:
@@ -43,8 +43,8 @@ class DomainTally:
         """Count the rows of a chunk, and return it with the column of what lies outside."""
         import pyarrow as pa
 
-        masks = self._masks(table)
-        texts = _texts(masks, table.num_rows)
+        masks = self._outside_masks(table)
+        texts = _outside_texts(masks, table.num_rows)
         self._outside += sum(map(bool, texts))
         return table.append_column(OUTSIDE, pa.array(texts, pa.string()))
 
@@ -54,23 +54,23 @@ class DomainTally:
         name, sha256 = self._reference.validation.name, self._reference.sha256
         return SweepDomain(name, sha256, self._outside, tuple(counts))
 
-    def _masks(self, table: pa.Table) -> _Masks:
+    def _outside_masks(self, table: pa.Table) -> _Masks:
         domains = self._reference.validation.domains
         masks: _Masks = {}
         for rows, conditions, columns in self._conditions.groups(table):
             for each in validation.deviations_of_stops(domains, rows.size, conditions, columns):
                 key = each.deviation.key
                 masks.setdefault(key, np.zeros(table.num_rows, bool))[rows[each.stops]] = True
-                self._count(each.deviation, int(each.stops.sum()))
+                self._count_deviation(each.deviation, int(each.stops.sum()))
         return masks
 
-    def _count(self, deviation: Deviation, cases: int) -> None:
+    def _count_deviation(self, deviation: Deviation, cases: int) -> None:
         """Add the cases of one deviation; numbers beyond the same bounds are one condition."""
         found, validated = deviation.found, deviation.validated
         key = deviation.key, validated, found if isinstance(found, str) else None
-        known = self._counts.get(key)
-        if known is not None:
-            cases, deviation = cases + known.cases, _spanning(known.deviation, deviation)
+        counted = self._counts.get(key)
+        if counted is not None:
+            cases, deviation = cases + counted.cases, _spanning_deviation(counted.deviation, deviation)
         self._counts[key] = OutsideCount(cases, deviation)
 
 
@@ -80,9 +80,9 @@ class _ConditionsOfCases:
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
         self._known: dict[tuple[str, ...], validation.Conditions] = {}
-        # A key of one car of a train is no condition by its name.
+        # A key of one car of a train is not a condition by its name.
         keys = [key for key in plan.keys if plan.own_keys or validation.is_condition(key)]
-        first = self._of_case(0)
+        first = self._conditions_of_case(0)
         numeric = () if plan.own_keys else plan.numeric_keys
         pairs = {key: self._number_of(key, first) for key in keys if key in numeric}
         self._numbers = {key: number for key, number in pairs.items() if number is not None}
@@ -99,26 +99,26 @@ class _ConditionsOfCases:
         for texts, rows in self._rows_by_texts(table).items():
             conditions = self._known.get(texts)
             if conditions is None:
-                conditions = self._of_case(int(indices[rows[0]]))
+                conditions = self._conditions_of_case(int(indices[rows[0]]))
                 if len(self._known) < _MOST_KNOWN:
                     self._known[texts] = conditions
             yield rows, conditions, {key: values[rows] for key, values in numbers.items()}
 
     def _rows_by_texts(self, table: pa.Table) -> dict[tuple[str, ...], NDArray[np.int64]]:
-        """Return the rows with the same values of everything that is no number by itself."""
+        """Return the rows with the same values of everything that is not a number by itself."""
         if not self._others:
             return {(): np.arange(table.num_rows)}
         columns = [table.column(text_column(key)).to_pylist() for key in self._others]
         rows: dict[tuple[str, ...], list[int]] = {}
         for row, texts in enumerate(zip(*columns, strict=True)):
             rows.setdefault(texts, []).append(row)
-        return {texts: np.array(own) for texts, own in rows.items()}
+        return {texts: np.array(text_rows) for texts, text_rows in rows.items()}
 
-    def _of_case(self, index: int) -> validation.Conditions:
+    def _conditions_of_case(self, index: int) -> validation.Conditions:
         return validation.conditions_of(effective_parts(self._plan.cases(np.array([index]))[0].scenario))
 
     def _number_of(self, key: str, conditions: validation.Conditions) -> str | None:
-        """Return the condition that a number is by itself, and no other; None where there is no such one."""
+        """Return the key of the condition that this number alone sets; None where there is none."""
         rail = self._plan.base.scenario.rail
         if key in (_FRICTION, _FRICTION_OF_CONDITION):
             over_time = rail.friction_over_time is not None or any(map(_is_over_time, self._plan.keys))
@@ -133,20 +133,21 @@ def _is_over_time(key: str) -> bool:
     return key == _OVER_TIME or key.startswith(f"{_OVER_TIME}.")
 
 
-def _spanning(one: Deviation, other: Deviation) -> Deviation:
+def _spanning_deviation(first: Deviation, second: Deviation) -> Deviation:
     """Return a deviation whose numbers span those of both; texts are the same."""
-    if not isinstance(one.found, tuple) or not isinstance(other.found, tuple):
-        return one
-    span = min(one.found[0], other.found[0]), max(one.found[1], other.found[1])
-    return replace(one, found=span)
+    if not isinstance(first.found, tuple) or not isinstance(second.found, tuple):
+        return first
+    span = min(first.found[0], second.found[0]), max(first.found[1], second.found[1])
+    return replace(first, found=span)
 
 
-def _texts(masks: Mapping[str, NDArray[np.bool_]], rows: int) -> Sequence[str]:
+def _outside_texts(masks: Mapping[str, NDArray[np.bool_]], rows: int) -> Sequence[str]:
     if not masks:
         return [""] * rows
     keys = list(masks)
     patterns, pattern_of = np.unique(np.column_stack(list(masks.values())), axis=0, return_inverse=True)
     texts = [
-        " ".join(key for key, is_outside in zip(keys, each, strict=True) if is_outside) for each in patterns
+        " ".join(key for key, is_outside in zip(keys, pattern, strict=True) if is_outside)
+        for pattern in patterns
     ]
-    return [texts[place] for place in pattern_of.ravel().tolist()]
+    return [texts[index] for index in pattern_of.ravel().tolist()]

@@ -60,7 +60,7 @@ class FrontierSearch:
     def __init__(self, plan: Plan, key: str, tolerance: DecimalQuantity | None = None) -> None:
         """Raises FrontierError."""
         self.plan, self.key = plan, key
-        self._place, self._group = _scanned(plan, key)
+        self._place, self._group = _scanned_group(plan, key)
         self._scanned_values = [parse_decimal_quantity(row[0].text) for row in self._group.rows]
         unit = common_unit(self._scanned_values)
         if unit is None:
@@ -79,17 +79,19 @@ class FrontierSearch:
         """Return the flips for every combination of the other parameters.
 
         Args:
-            verdicts: of every case of the plan.
+            verdicts: verdicts of every case of the plan.
             judge: gives the verdicts of further cases: those of a plan with the given indices.
         """
         # By combination of the others and rising value of the parameter.
         cube = np.moveaxis(verdicts.reshape([group.size for group in self.plan.groups]), self._place, -1)
         scanned = cube.reshape(-1, self._group.size)[:, self._order]
-        brackets = [bracket for number, row in enumerate(scanned) for bracket in self._brackets(number, row)]
-        self._narrow(brackets, judge)
-        return [self._scan(number, row, brackets) for number, row in enumerate(scanned)]
+        brackets = [
+            bracket for number, row in enumerate(scanned) for bracket in self._brackets_in_row(number, row)
+        ]
+        self._halve_brackets(brackets, judge)
+        return [self._frontier_scan(number, row, brackets) for number, row in enumerate(scanned)]
 
-    def _brackets(self, combination: int, row: Verdicts) -> list[_Bracket]:
+    def _brackets_in_row(self, combination: int, row: Verdicts) -> list[_Bracket]:
         numbers = [self._scanned_values[k].number for k in self._order]
         return [
             _Bracket(combination, numbers[k], numbers[k + 1], bool(row[k]))
@@ -97,58 +99,61 @@ class FrontierSearch:
             if UNKNOWN not in (row[k], row[k + 1]) and row[k] != row[k + 1]
         ]
 
-    def _narrow(self, brackets: Sequence[_Bracket], judge: Judge) -> None:
+    def _halve_brackets(self, brackets: Sequence[_Bracket], judge: Judge) -> None:
         """Halve all brackets together, so that one batch of stops serves all of them."""
         while wide := [each for each in brackets if each.high - each.low > self.tolerance]:
             middles = [rounded_decimal(float((each.low + each.high) / 2)) for each in wide]
-            plan, indices = self._cases([each.combination for each in wide], middles)
+            plan, indices = self._plan_with_values([each.combination for each in wide], middles)
             for each, middle, met in zip(wide, middles, judge(plan, indices).tolist(), strict=True):
                 if bool(met) == each.met_at_low:
                     each.low = middle
                 else:
                     each.high = middle
 
-    def _cases(
+    def _plan_with_values(
         self, combinations: Sequence[int], numbers: Sequence[Decimal]
     ) -> tuple[Plan, NDArray[np.int64]]:
         """Return a plan in which the parameter has these values, and the indices of its cases."""
         distinct = sorted(set(numbers))
-        group = ListedGroup((self.key,), tuple((self._value(number),) for number in distinct))
+        group = ListedGroup((self.key,), tuple((self._parameter_value(number),) for number in distinct))
         groups = list(self.plan.groups)
-        others = [each.size for place, each in enumerate(groups) if place != self._place]
+        other_sizes = [each.size for index, each in enumerate(groups) if index != self._place]
         groups[self._place] = group
-        rows = list(np.unravel_index(np.array(combinations), others)) if others else []
+        rows = list(np.unravel_index(np.array(combinations), other_sizes)) if other_sizes else []
         rows.insert(self._place, np.array([distinct.index(number) for number in numbers]))
         indices = np.ravel_multi_index(rows, [each.size for each in groups])
         return replace(self.plan, groups=tuple(groups)), np.asarray(indices, np.int64)
 
-    def _value(self, number: Decimal) -> ParameterValue:
+    def _parameter_value(self, number: Decimal) -> ParameterValue:
         text = quantity_text(number, self.unit)
         example = self._group.rows[0][0].content
-        place = Location(Document("--frontier", Path(), text))
-        setting = Setting(self.key, Entry(place, Scalar(text, text, place)), 1)
+        location = Location(Document("--frontier", Path(), text))
+        setting = Setting(self.key, Entry(location, Scalar(text, text, location)), 1)
         return ParameterValue(text, content_of(text, kind_of(example, self.unit)), value_label(setting))
 
-    def _scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
-        own = [bracket for bracket in brackets if bracket.combination == number]
-        ends = [(quantity_text(each.low, self.unit), quantity_text(each.high, self.unit)) for each in own]
+    def _frontier_scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
+        brackets_of_row = [bracket for bracket in brackets if bracket.combination == number]
+        ends = [
+            (quantity_text(each.low, self.unit), quantity_text(each.high, self.unit))
+            for each in brackets_of_row
+        ]
         flips = tuple(
             Flip(WrittenValue(low), WrittenValue(high), each.met_at_low)
-            for each, (low, high) in zip(own, ends, strict=True)
+            for each, (low, high) in zip(brackets_of_row, ends, strict=True)
         )
-        plan, indices = self._cases([number], [self._scanned_values[0].number])
+        plan, indices = self._plan_with_values([number], [self._scanned_values[0].number])
         settings = plan.settings(indices).items()
-        others = {key: WrittenValue(values[0].text) for key, values in settings if key != self.key}
-        return FrontierScan(others, flips, _note(row, len(flips)))
+        circumstances = {key: WrittenValue(values[0].text) for key, values in settings if key != self.key}
+        return FrontierScan(circumstances, flips, _flip_note(row, len(flips)))
 
 
-def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
-    for place, group in enumerate(plan.groups):
+def _scanned_group(plan: Plan, key: str) -> tuple[int, ListedGroup]:
+    for index, group in enumerate(plan.groups):
         if group.keys != (key,):
             continue
         if isinstance(group, ListedGroup) and group.size > 1:
             if all(_is_continuous(plan, key, row[0].content) for row in group.rows):
-                return place, group
+                return index, group
             raise FrontierError(f"{key} is not a quantity")
     listed = ", ".join(each for each, values in plan.listed().items() if len(values) > 1) or "none"
     raise FrontierError(f"{key} needs two values or more under `matrix` or `ranges`; there are: {listed}")
@@ -162,7 +167,7 @@ def _is_continuous(plan: Plan, key: str, content: Any) -> bool:
     return is_number and is_free(plan.base.scenario, key)
 
 
-def _note(row: Verdicts, flips: int) -> str:
+def _flip_note(row: Verdicts, flips: int) -> str:
     if UNKNOWN in row:
         return "some cases were not run"
     if flips == 0:

@@ -37,7 +37,7 @@ def sobol_sensitivities(
     """Return the indices of a measure, and the reason where there are none.
 
     Args:
-        plan: of a Saltelli sample.
+        plan: plan of a Saltelli sample.
         measure: name of the measure.
         values: the measure for every case of the plan.
     """
@@ -54,7 +54,7 @@ def sobol_sensitivities(
         listed = {
             key: WrittenValue(column[0].text) for key, column in first_case.items() if key not in sample.keys
         }
-        firsts, totals = _indices(in_sample.reshape(sample.points, -1), sample.seed)
+        firsts, totals = _sobol_indices(in_sample.reshape(sample.points, -1), sample.seed)
         sensitivities.extend(
             SobolSensitivity(measure, listed, key, first, total)
             for key, first, total in zip(sample.keys, firsts, totals, strict=True)
@@ -62,10 +62,10 @@ def sobol_sensitivities(
     return sensitivities, ""
 
 
-def _indices(rows: Numbers, seed: int) -> tuple[list[SobolIndex], list[SobolIndex]]:
+def _sobol_indices(rows: Numbers, seed: int) -> tuple[list[SobolIndex], list[SobolIndex]]:
     """Return first-order and total indices; `rows` holds base points: A, B, A with one column of B."""
-    low, high = confidence_interval(_estimate, rows, seed)
-    first, total = zip(_estimate(rows).tolist(), low.tolist(), high.tolist(), strict=True)
+    low, high = confidence_interval(_index_estimates, rows, seed)
+    first, total = zip(_index_estimates(rows).tolist(), low.tolist(), high.tolist(), strict=True)
     return [SobolIndex(*each) for each in zip(*first, strict=True)], [
         SobolIndex(*each) for each in zip(*total, strict=True)
     ]
@@ -83,7 +83,7 @@ def confidence_interval(
     return low, high
 
 
-def _estimate(rows: Numbers) -> Numbers:
+def _index_estimates(rows: Numbers) -> Numbers:
     """Return the indices of all parameters, shape (2, parameters): first order, total."""
     from scipy.stats import sobol_indices
 

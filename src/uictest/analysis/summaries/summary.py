@@ -70,7 +70,7 @@ def summarized(
 
     Args:
         selection: the cases of the sweep.
-        store: of its chunks.
+        store: store of its chunks.
         pair: the two parameters of the maps, None for no map.
         measures: columns to map and to compute sensitivities of, besides the verdict.
         reference: validation that the cases are held against; they get a column of what lies outside.
@@ -126,8 +126,8 @@ class Summary:
         for table in self.store.tables(chunks, sums.columns_read_twice()):
             for trend in sums.trends:
                 trend.add(table)
-        sensitivities, notes = _sensitivities(plan, sums.sampled_columns())
-        result = _result(
+        sensitivities, notes = _sobol_sensitivities(plan, sums.sampled_columns())
+        result = _sweep_result(
             sums,
             sensitivities=sensitivities,
             domain=of_validity,
@@ -135,7 +135,7 @@ class Summary:
             notes=(
                 *survey_notes(survey, sums.tally.cases),
                 *domain_notes(of_validity, sums.tally.cases),
-                *_notes(plan, sums.tally.outcomes),
+                *_outcome_notes(plan, sums.tally.outcomes),
                 *map(str, drawn_ranges(plan)),
                 *notes,
                 *(() if self.csv else (_WITHOUT_CSV,)),
@@ -197,7 +197,7 @@ def _moving_speed(plan: Plan) -> str:
     return "moving_speed" if key in plan.keys else plan.base.scenario.measures.moving_speed.text
 
 
-def _result(
+def _sweep_result(
     sums: _Sums,
     *,
     sensitivities: tuple[SobolSensitivity, ...],
@@ -233,7 +233,7 @@ def _result(
     )
 
 
-def _notes(plan: Plan, outcomes: Mapping[str, int]) -> Iterator[str]:
+def _outcome_notes(plan: Plan, outcomes: Mapping[str, int]) -> Iterator[str]:
     """Yield the requirements of the scenario, and how many cases are not judged or inconclusive."""
     if requirements := named_requirements(plan.base.scenario):
         yield f"requirements that the scenario and its criteria name: {', '.join(requirements)}"
@@ -243,7 +243,7 @@ def _notes(plan: Plan, outcomes: Mapping[str, int]) -> Iterator[str]:
         yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
 
 
-def _sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:
+def _sobol_sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:
     """Return the Sobol indices of each column, and notes on missing or uncertain ones."""
     sensitivities: list[SobolSensitivity] = []
     notes: list[str] = []

@@ -80,7 +80,7 @@ class MeasureSums:
             self._sum += float(values.sum())
 
     def range(self) -> MeasureRange:
-        """Return what the rows that were added come to; there must be one with the measure."""
+        """Return the trends of the rows that were added; there must be one with the measure."""
         return MeasureRange(
             measure=self.measure.name,
             unit=self.measure.unit,

@@ -1,4 +1,4 @@
-"""A validation: recorded stops beside their simulations, the agreement of figures, and its JSON document."""
+"""A validation: recorded stops and their simulations, the agreement of figures, and its JSON document."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ class ComparedStop:
     """One recorded stop and its simulation.
 
     Attributes:
-        id: of both.
+        id: id of the recorded stop and of its simulation.
         recording: file, as shown to users.
-        sha256: of the file.
+        sha256: SHA-256 of the file.
         initial_speed: recorded, m/s; the simulation has the same.
         recorded: its figures.
         simulated: the same figures of the simulation; medians where it was repeated.
@@ -120,9 +120,9 @@ class Agreement:
 
     Attributes:
         figure: a column of results; of a wheelset `maximum_slide_1`.
-        unit: of the figure.
+        unit: unit of the figure.
         stops: in which both are known.
-        recorded_mean: of the recorded figures.
+        recorded_mean: mean of the recorded figures.
         absolute: the differences, in `unit`.
         relative: the same as shares of the recorded figures; None where one of these is not positive.
     """
@@ -160,7 +160,7 @@ def agreement_of(
 
 
 def differences_of(values: Sequence[float], confidence: float) -> Differences:
-    """Return what differences, at least one, come to. Student's t, which takes them for normal draws.
+    """Return bias and spread of differences, at least one. Student's t, which takes them for normal draws.
 
     Differences that are all alike have no intervals: t would feign certainty.
     """
@@ -183,10 +183,10 @@ class Validation:
     """What recorded stops have shown of the model.
 
     Attributes:
-        name: of the validation.
+        name: name of the validation.
         title: one line for people.
-        version: of uictest that simulated.
-        confidence: of the intervals.
+        version: version of uictest that simulated.
+        confidence: confidence of the intervals.
         inputs: every file that was read, and its SHA-256.
         stops: all of them, those that are not counted too.
         figures: agreement of each figure over the counted stops.
@@ -281,7 +281,7 @@ class StopUnderConditions:
 def validation_of(
     plan: ValidationPlan, stops: Sequence[StopUnderConditions], inputs: Mapping[str, str]
 ) -> Validation:
-    """Return what compared stops come to.
+    """Return the agreement of compared stops.
 
     Args:
         plan: what was planned.
@@ -289,7 +289,7 @@ def validation_of(
         inputs: every file that was read, and its SHA-256.
     """
     counted = [each for each in stops if each.stop.counted]
-    figures = {name: _agreement(name, counted, plan.confidence) for name in figure_names()}
+    figures = {name: _agreement_of_figure(name, counted, plan.confidence) for name in figure_names()}
     return Validation(
         name=plan.name,
         title=plan.title,
@@ -310,7 +310,9 @@ def figure_names() -> Iterator[str]:
         yield from (f"{name}_{number}" for number in _WHEELSETS)
 
 
-def _agreement(name: str, counted: Sequence[StopUnderConditions], confidence: float) -> Agreement | None:
+def _agreement_of_figure(
+    name: str, counted: Sequence[StopUnderConditions], confidence: float
+) -> Agreement | None:
     recorded = [each.stop.recorded.get(name, float("nan")) for each in counted]
     simulated = [each.stop.simulated.get(name, float("nan")) for each in counted]
     return agreement_of(name, column_unit(name), recorded, simulated, confidence)

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from uictest.judging.evaluation import Deviation, EffectivePart, Parameter
 
-_WITHOUT: Final = ("criteria", "measures")
+_JUDGING_ROLES: Final = ("criteria", "measures")
 """Roles of parts that say how a stop is judged, not how it goes."""
-_DRAWN: Final = ("seed", "simulation.maximum_duration")
+_NO_CONDITIONS: Final = ("seed", "simulation.maximum_duration")
 """Keys that say nothing of the conditions."""
 _FRICTION: Final = re.compile(r"rail\.friction(\.points\.\d+\.friction)?")
 _FRICTION_OF_CONDITION: Final = "rail.condition.friction"
@@ -41,7 +41,7 @@ class Conditions:
     """What a stop was run under.
 
     Attributes:
-        names: of its parts, by where they stand in a scenario.
+        names: names of its parts, by where they stand in a scenario.
         settings: texts and truth values by key.
         ranges: numbers by key.
     """
@@ -52,26 +52,26 @@ class Conditions:
 
 
 def is_condition(key: str) -> bool:
-    """Return whether a key of a scenario can say something of the conditions of a stop."""
-    return key not in _DRAWN and key.partition(".")[0] not in _WITHOUT
+    """Return whether a key of a scenario may describe the conditions of a stop."""
+    return key not in _NO_CONDITIONS and key.partition(".")[0] not in _JUDGING_ROLES
 
 
 def conditions_of(parts: Mapping[str, EffectivePart]) -> Conditions:
     """Return the conditions that the parts of a simulated stop, by role, make up."""
-    used = [part for role, part in parts.items() if role.partition(".")[0] not in _WITHOUT]
-    parameters = [each for part in used for each in part.parameters if each.key not in _DRAWN]
-    others = [each for each in parameters if not _of_friction(each.key)]
+    used = [part for role, part in parts.items() if role.partition(".")[0] not in _JUDGING_ROLES]
+    parameters = [each for part in used for each in part.parameters if each.key not in _NO_CONDITIONS]
+    beyond_friction = [each for each in parameters if not _describes_friction(each.key)]
     return Conditions(
         names={part.key: part.name for part in used if part.name},
-        settings={each.key: str(each.value) for each in others if not _is_number(each)},
+        settings={each.key: str(each.value) for each in beyond_friction if not _is_number(each)},
         ranges={
-            **{each.key: _range(each) for each in others if _is_number(each)},
-            "rail.friction": _friction(parameters),
+            **{each.key: _single_value_range(each) for each in beyond_friction if _is_number(each)},
+            "rail.friction": _friction_range(parameters),
         },
     )
 
 
-def _friction(parameters: Iterable[Parameter]) -> Range:
+def _friction_range(parameters: Iterable[Parameter]) -> Range:
     """Return the initial friction coefficient of the rail, everywhere and at any time."""
     values = {each.key: float(each.value) for each in parameters if _is_number(each)}
     along = list(_matching(values, _FRICTION)) or [values[_FRICTION_OF_CONDITION]]
@@ -83,7 +83,7 @@ def _matching(values: Mapping[str, float], key: re.Pattern[str]) -> Iterator[flo
     return (value for name, value in values.items() if key.fullmatch(name))
 
 
-def _of_friction(key: str) -> bool:
+def _describes_friction(key: str) -> bool:
     in_scenario = any(key == each or key.startswith(f"{each}.") for each in _COURSE)
     return in_scenario or key == _FRICTION_OF_CONDITION
 
@@ -92,7 +92,7 @@ def _is_number(parameter: Parameter) -> bool:
     return isinstance(parameter.value, float | int) and not isinstance(parameter.value, bool)
 
 
-def _range(parameter: Parameter) -> Range:
+def _single_value_range(parameter: Parameter) -> Range:
     value = float(parameter.value)
     return Range(value, value, parameter.unit)
 
@@ -116,18 +116,19 @@ def domains_of(stops: Iterable[Sequence[Conditions]]) -> tuple[Domain, ...]:
     """Return the domains of stops, each with its conditions as planned and as recorded."""
     domains: list[Domain] = []
     for each in stops:
-        conditions = _joined(each)
-        place = next((k for k, known in enumerate(domains) if _alike(known.conditions, conditions)), None)
-        if place is None:
-            domains.append(Domain(1, conditions))
+        conditions = _spanning_conditions(each)
+        for index, domain in enumerate(domains):
+            if _same_parts_and_settings(domain.conditions, conditions):
+                spanned = _spanning_conditions((domain.conditions, conditions))
+                domains[index] = Domain(domain.stops + 1, spanned)
+                break
         else:
-            known = domains[place]
-            domains[place] = Domain(known.stops + 1, _joined((known.conditions, conditions)))
+            domains.append(Domain(1, conditions))
     return tuple(domains)
 
 
 def deviations(domains: Sequence[Domain], conditions: Conditions) -> tuple[Deviation, ...]:
-    """Return what of a stop lies outside of the domain that it comes nearest to; nothing inside of one.
+    """Return the deviations of a stop from the domain that it comes nearest to; none inside of a domain.
 
     Raises ValueError without any domain.
     """
@@ -135,31 +136,32 @@ def deviations(domains: Sequence[Domain], conditions: Conditions) -> tuple[Devia
 
 
 def outside_of(validated: Conditions, stop: Conditions) -> Iterator[Deviation]:
-    """Yield what of a stop lies outside of conditions; of a part of another name the name alone."""
-    yield from _different(validated.names, stop.names)
+    """Yield the deviations of a stop from validated conditions; of a part of another name the name alone."""
+    yield from _changed_entries(validated.names, stop.names)
     inside = inside_of_other_parts(validated, stop)
-    for each in (*_different(validated.settings, stop.settings), *_beyond(validated.ranges, stop.ranges)):
-        if not each.key.startswith(inside):
-            yield each
+    settings = _changed_entries(validated.settings, stop.settings)
+    for deviation in (*settings, *_ranges_beyond(validated.ranges, stop.ranges)):
+        if not deviation.key.startswith(inside):
+            yield deviation
 
 
 def inside_of_other_parts(validated: Conditions, stop: Conditions) -> tuple[str, ...]:
-    """Return how the keys inside of parts of another name begin: they need no line of their own."""
-    return tuple(f"{each.key}." for each in _different(validated.names, stop.names))
+    """Return the prefixes of the keys inside of parts of another name: these need no line of their own."""
+    return tuple(f"{each.key}." for each in _changed_entries(validated.names, stop.names))
 
 
-def _different(validated: Mapping[str, str], stop: Mapping[str, str]) -> Iterator[Deviation]:
+def _changed_entries(validated: Mapping[str, str], stop: Mapping[str, str]) -> Iterator[Deviation]:
     for key in dict.fromkeys((*stop, *validated)):
         if stop.get(key) != validated.get(key):
             yield Deviation(key, stop.get(key), validated.get(key))
 
 
-def _beyond(validated: Mapping[str, Range], stop: Mapping[str, Range]) -> Iterator[Deviation]:
+def _ranges_beyond(validated: Mapping[str, Range], stop: Mapping[str, Range]) -> Iterator[Deviation]:
     for key in dict.fromkeys((*stop, *validated)):
         found, bounds = stop.get(key), validated.get(key)
         if found is None or bounds is None or not bool(holds(bounds, found.lowest, found.highest)):
             unit = (found or bounds or Range(0.0, 0.0, "")).unit
-            yield Deviation(key, _ends(found), _ends(bounds), unit)
+            yield Deviation(key, _interval_ends(found), _interval_ends(bounds), unit)
 
 
 def holds(bounds: Range, lowest: Any, highest: Any) -> Any:
@@ -168,16 +170,16 @@ def holds(bounds: Range, lowest: Any, highest: Any) -> Any:
     return (bounds.lowest - slack <= lowest) & (highest <= bounds.highest + slack)
 
 
-def _ends(interval: Range | None) -> tuple[float, float] | None:
+def _interval_ends(interval: Range | None) -> tuple[float, float] | None:
     return None if interval is None else (interval.lowest, interval.highest)
 
 
-def _alike(one: Conditions, other: Conditions) -> bool:
+def _same_parts_and_settings(one: Conditions, other: Conditions) -> bool:
     same = one.names == other.names and one.settings == other.settings
     return same and one.ranges.keys() == other.ranges.keys()
 
 
-def _joined(stops: Sequence[Conditions]) -> Conditions:
+def _spanning_conditions(stops: Sequence[Conditions]) -> Conditions:
     """Return conditions whose intervals hold those of all of these, which are alike."""
     first, *others = stops
     ranges = dict(first.ranges)
@@ -201,12 +203,12 @@ class DeviationOfStops:
 def deviations_of_stops(
     domains: Sequence[Domain], stops: int, conditions: Conditions, columns: Columns
 ) -> Iterator[DeviationOfStops]:
-    """Yield what of stops lies outside of the domain that each comes nearest to, as `deviations` of each.
+    """Yield the deviations of each stop from the domain that it comes nearest to, as :func:`deviations`.
 
     Args:
         domains: at least one.
         stops: their number.
-        conditions: of one of the stops; the others differ in the numbers of `columns` alone.
+        conditions: conditions of one of the stops; the others differ in the numbers of `columns` alone.
         columns: numbers of every stop, by keys that `conditions` have.
     """
     outside = [_Outside.of(domain.conditions, stops, conditions, columns) for domain in domains]
@@ -226,7 +228,7 @@ class _Outside:
 
     @classmethod
     def of(cls, validated: Conditions, stops: int, stop: Conditions, columns: Columns) -> _Outside:
-        shared = list(outside_of(_without(validated, columns), _without(stop, columns)))
+        shared = list(outside_of(_without_columns(validated, columns), _without_columns(stop, columns)))
         inside = inside_of_other_parts(validated, stop)
         by_key = {
             key: _rows_beyond(validated.ranges.get(key), values)
@@ -239,7 +241,7 @@ class _Outside:
     def deviations(
         self, nearest: NDArray[np.bool_], stop: Conditions, columns: Columns
     ) -> Iterator[DeviationOfStops]:
-        """Yield what lies outside of those stops that come nearest to this domain."""
+        """Yield the deviations of those stops that come nearest to this domain."""
         if nearest.any():
             yield from (DeviationOfStops(each, nearest) for each in self.shared)
         for key, beyond in self.by_key.items():
@@ -251,13 +253,13 @@ class _Outside:
                 yield DeviationOfStops(Deviation(key, found, validated, stop.ranges[key].unit), stops)
 
 
-def _without(conditions: Conditions, columns: Columns) -> Conditions:
+def _without_columns(conditions: Conditions, columns: Columns) -> Conditions:
     ranges = {key: each for key, each in conditions.ranges.items() if key not in columns}
     return replace(conditions, ranges=ranges)
 
 
 def _rows_beyond(bounds: Range | None, values: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which values lie outside; all of them where there are no bounds."""
+    """Return a mask of the values outside of the bounds; all of them where there are none."""
     inside: NDArray[np.bool_] = (
         np.zeros(values.size, bool) if bounds is None else holds(bounds, values, values)
     )

@@ -23,11 +23,11 @@ _DRAWS: Final = "one seed per stop"
 """How the simulations behind the intervals of a validation were drawn, as figures.csv says it."""
 
 
-def _interval(low: float, high: float) -> str:
+def _interval_text(low: float, high: float) -> str:
     return "-" if low != low else f"{low:+.4g} .. {high:+.4g}"
 
 
-def _number(value: float) -> str:
+def _number_text(value: float) -> str:
     return "-" if value != value else f"{value:.5g}"
 
 
@@ -38,18 +38,18 @@ def _relative_bias(agreement: Agreement) -> str:
 _FIGURES: Final[tuple[Column[Agreement], ...]] = (
     Column(heading="figure", text=lambda each: each.figure),
     Column(heading="stops", text=lambda each: str(each.stops), right=True),
-    Column(heading="recorded", text=lambda each: _number(each.recorded_mean), rank=4, right=True),
+    Column(heading="recorded", text=lambda each: _number_text(each.recorded_mean), rank=4, right=True),
     Column(heading="bias", text=lambda each: f"{each.absolute.bias:+.4g}", right=True),
     Column(
         heading="interval of bias",
-        text=lambda each: _interval(each.absolute.bias_low, each.absolute.bias_high),
+        text=lambda each: _interval_text(each.absolute.bias_low, each.absolute.bias_high),
         rank=1,
         right=True,
     ),
-    Column(heading="spread", text=lambda each: _number(each.absolute.deviation), rank=2, right=True),
+    Column(heading="spread", text=lambda each: _number_text(each.absolute.deviation), rank=2, right=True),
     Column(
         heading="limits of agreement",
-        text=lambda each: _interval(each.absolute.limits_low, each.absolute.limits_high),
+        text=lambda each: _interval_text(each.absolute.limits_low, each.absolute.limits_high),
         rank=3,
         right=True,
     ),
@@ -77,21 +77,21 @@ def validation_document(validation: Validation, *, every_figure: bool = True) ->
 
 
 def tally(validation: Validation) -> str:
-    """Return how many of the recorded stops count."""
+    """Return the number of recorded stops that count, in words."""
     return f"{len(validation.counted)} of {counted(len(validation.stops), 'recorded stop')} counted"
 
 
 def _stop_lines(validation: Validation) -> Iterator[str]:
     for stop in validation.stops:
-        one, other = (each.get(_DISTANCE, float("nan")) for each in (stop.recorded, stop.simulated))
-        percent = 100.0 * (other - one) / one if one else float("nan")
+        recorded, simulated = (each.get(_DISTANCE, float("nan")) for each in (stop.recorded, stop.simulated))
+        percent = 100.0 * (simulated - recorded) / recorded if recorded else float("nan")
         relative = "-" if percent != percent else f"{percent:+.2f} %"
-        figures = f"recorded {_number(one)} m, simulated {_number(other)} m ({relative})"
+        figures = f"recorded {_number_text(recorded)} m, simulated {_number_text(simulated)} m ({relative})"
         speed = f"from {stop.initial_speed / KILOMETRE_PER_HOUR:.4g} km/h"
         if stop.tuned:
             figures += "; not counted: numbers of its scenario were found with it"
-        shown = f"not counted: {stop.not_counted}" if stop.not_counted else figures
-        yield f"stop {stop.id} {speed}: {shown}"
+        result = f"not counted: {stop.not_counted}" if stop.not_counted else figures
+        yield f"stop {stop.id} {speed}: {result}"
 
 
 def domain_text(domain: Domain) -> str:
@@ -99,20 +99,20 @@ def domain_text(domain: Domain) -> str:
     conditions = domain.conditions
     names = [f"{key} {name}" for key, name in conditions.names.items()]
     settings = [f"{key} {conditions.settings[key]}" for key in _SETTINGS if key in conditions.settings]
-    shown = {
+    range_texts = {
         key: interval_text(each.lowest, each.highest, each.unit)
         for key, each in conditions.ranges.items()
         if key in _ALWAYS or each.lowest < each.highest
     }
-    ranges = [f"{key} {text}" for key, text in shown.items()]
-    further = len(conditions.ranges) + len(conditions.settings) - len(shown) - len(settings)
+    ranges = [f"{key} {text}" for key, text in range_texts.items()]
+    further = len(conditions.ranges) + len(conditions.settings) - len(range_texts) - len(settings)
     stops = f"{domain.stops} stop" + ("s" if domain.stops > 1 else "")
     listed = "; ".join((*names, *settings, *ranges))
     return f"{stops}: {listed}; {further} further numbers and settings as in these stops"
 
 
 def remarks(validation: Validation) -> Iterator[str]:
-    """Yield what a reader must know besides the figures."""
+    """Yield the remarks that a reader needs to understand the figures."""
     stops = len(validation.counted)
     if stops == 1:
         yield "one stop: it shows a difference, and nothing of bias or spread"
@@ -123,7 +123,7 @@ def remarks(validation: Validation) -> Iterator[str]:
             " are independent; limits of agreement: of one further stop"
         )
     if stops:
-        yield f"simulated draws: {_draws(validation)}"
+        yield f"simulated draws: {_draws_text(validation)}"
     if any(stop.repeats == 1 for stop in validation.counted):
         yield "a simulation under one seed is one draw where wheelsets slide; `repeat` compares medians"
     if stops and validation.not_compared:
@@ -132,8 +132,8 @@ def remarks(validation: Validation) -> Iterator[str]:
         yield f"not compared, as no counted stop has both: {', '.join(columns)}"
 
 
-def _draws(validation: Validation) -> str:
-    """Return how the simulations were drawn, and so what the intervals are worth."""
+def _draws_text(validation: Validation) -> str:
+    """Return how the simulations were drawn, which says what the intervals are worth."""
     if any(stop.seed is None for stop in validation.counted):
         return "not known: stops that share a seed and a speed share a draw, and the intervals are too narrow"
     return (
@@ -145,24 +145,24 @@ def _draws(validation: Validation) -> str:
 def figures_table(validation: Validation) -> Table:
     """Return every figure with its agreement, absolute and as a share of the recorded figure."""
     columns = ("figure", "unit", "stops", "draws", "recorded_mean")
-    known = all(stop.seed is not None for stop in validation.counted)
+    seeds_known = all(stop.seed is not None for stop in validation.counted)
     relative = [f"relative_{name}" for name in _OF_DIFFERENCES]
     rows: list[dict[str, Cell]] = [
         {
             "figure": each.figure,
             "unit": each.unit,
             "stops": each.stops,
-            "draws": _DRAWS if known else "not known",
+            "draws": _DRAWS if seeds_known else "not known",
             "recorded_mean": each.recorded_mean,
-            **_values(each.absolute, ""),
-            **({} if each.relative is None else _values(each.relative, "relative_")),
+            **_difference_columns(each.absolute, ""),
+            **({} if each.relative is None else _difference_columns(each.relative, "relative_")),
         }
         for each in validation.figures
     ]
     return table_of("figures", rows, [*columns, *_OF_DIFFERENCES, *relative])
 
 
-def _values(differences: Differences, prefix: str) -> dict[str, float]:
+def _difference_columns(differences: Differences, prefix: str) -> dict[str, float]:
     return {f"{prefix}{name}": getattr(differences, name) for name in _OF_DIFFERENCES}
 
 
@@ -172,10 +172,10 @@ def stops_table(validation: Validation) -> Table:
         *("stop", "recording", "counted", "tuned", "not_counted", "seed", "repeats"),
         *("figure", "recorded", "simulated", "difference"),
     )
-    return table_of("stops", [row for stop in validation.stops for row in _rows(stop)], columns)
+    return table_of("stops", [row for stop in validation.stops for row in _rows_of_stop(stop)], columns)
 
 
-def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
+def _rows_of_stop(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
     shared: dict[str, Cell] = {
         "stop": stop.id,
         "recording": stop.recording,
@@ -195,7 +195,9 @@ def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
 
 def validation_html(validation: Validation) -> str:
     """Return one page of recorded stops against their simulation; it loads nothing."""
-    effects = {each.figure: _effect(each) for each in validation.figures if each.figure in STOP_COLUMNS}
+    effects = {
+        each.figure: _relative_effect(each) for each in validation.figures if each.figure in STOP_COLUMNS
+    }
     return render(
         "validation.html.j2",
         with_plots=False,
@@ -212,13 +214,17 @@ def validation_html(validation: Validation) -> str:
     )
 
 
-def _effect(agreement: Agreement) -> Effect | None:
+def _relative_effect(agreement: Agreement) -> Effect | None:
     """Return the differences in per cent of the recorded figure; None where they have no such share."""
-    own = agreement.relative
-    if own is None:
+    relative = agreement.relative
+    if relative is None:
         return None
     bias, low, high, *outer = (
-        100.0 * end for end in (own.bias, own.bias_low, own.bias_high, own.limits_low, own.limits_high)
+        100.0 * end
+        for end in (
+            *(relative.bias, relative.bias_low, relative.bias_high),
+            *(relative.limits_low, relative.limits_high),
+        )
     )
     if not math.isfinite(bias + low + high + sum(outer)):
         return None

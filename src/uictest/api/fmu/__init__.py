@@ -1,4 +1,4 @@
-"""FMUs for co-simulation: the rig of one case, or a controller, behind the functions of FMI."""
+"""FMUs for co-simulation: the rig of one case, or a controller, with the functions of FMI."""
 
 import lazy_loader
 

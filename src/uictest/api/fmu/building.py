@@ -111,8 +111,8 @@ def compiled(sources: Sequence[Path]) -> dict[str, bytes]:
     here = this_system()
     if not os.environ.get("CC") and importlib.util.find_spec("ziglang") is not None:
         zig = (sys.executable, "-m", "ziglang", "cc", "-target")
-        return {name: _linked((*zig, _ZIG[name]), name, sources) for name in SYSTEMS}
-    return {here: _linked((_own_compiler(here),), here, sources)}
+        return {name: _linked_library((*zig, _ZIG[name]), name, sources) for name in SYSTEMS}
+    return {here: _linked_library((_own_compiler(here),), here, sources)}
 
 
 def _own_compiler(here: str) -> str:
@@ -126,7 +126,7 @@ def _own_compiler(here: str) -> str:
     )
 
 
-def _linked(compiler: Sequence[str], system: str, sources: Sequence[Path]) -> bytes:
+def _linked_library(compiler: Sequence[str], system: str, sources: Sequence[Path]) -> bytes:
     paths = [source.resolve() for source in sources]
     folders = dict.fromkeys((*(path.parent for path in paths), HEADER.parent))
     includes = [f"-I{folder}" for folder in folders]
@@ -191,7 +191,7 @@ def archive_of(
         system: f"{system.folder_2 if version == 2 else system.folder}/{model.identifier}.{system.suffix}"
         for system in libraries
     }
-    return _archive(
+    return _zip_archive(
         {
             "modelDescription.xml": model_description(model, version),
             **{f"binaries/{names[system]}": path.read_bytes() for system, path in libraries.items()},
@@ -206,7 +206,7 @@ def _token_of(*contents: bytes) -> str:
     return "{" + "-".join((digits[:8], digits[8:12], digits[12:16], digits[16:20], digits[20:32])) + "}"
 
 
-def _archive(files: Mapping[str, bytes]) -> bytes:
+def _zip_archive(files: Mapping[str, bytes]) -> bytes:
     content = io.BytesIO()
     # Not compressed: machines have different compressors, which give different bytes.
     with zipfile.ZipFile(content, "w") as archive:

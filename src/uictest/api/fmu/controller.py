@@ -68,7 +68,7 @@ VARIABLES: Final = (
     _output("reference_speed", "Estimated speed of the train; NaN: none", "m/s", "real"),
     _output("diagnosis", "32 bits of the controller's own", kind="integer"),
 )
-"""Those that are no parameters. A scenario finds all of them by these names."""
+"""Variables other than parameters. A scenario finds all of them by these names."""
 
 
 VARIABLES_2: Final = (
@@ -115,11 +115,12 @@ def build_controller_fmu(
     config = Config(4, float(part.cycle_time), 0.0, radii, getattr(part, "parameters", {}))
     controller = exported(part, config, libraries)
     return ControllerFmu(
-        _fmu(part.label, controller, config, version), tuple(_notes(part.program, controller))
+        _packed_fmu(part.label, controller, config, version),
+        tuple(_notes_for_people(part.program, controller)),
     )
 
 
-def _notes(program: ControllerProgram | None, controller: Exported) -> Iterator[str]:
+def _notes_for_people(program: ControllerProgram | None, controller: Exported) -> Iterator[str]:
     for parameter in controller.parameters:
         if not parameter.is_variable:
             yield f"the parameter {parameter.name} is no number: it cannot be set in the FMU"
@@ -133,15 +134,15 @@ def _notes(program: ControllerProgram | None, controller: Exported) -> Iterator[
         yield f"the library holds the name of the folder {folder}: build it without -g, or use `strip -g`"
 
 
-def _fmu(name: str, controller: Exported, config: Config, version: FmiVersion) -> bytes:
+def _packed_fmu(name: str, controller: Exported, config: Config, version: FmiVersion) -> bytes:
     paths = _paths_of_parameters(controller)
-    start = _start(controller, config, paths)
+    start = _initial_memory(controller, config, paths)
     model = Model(
         name=f"controller {name}",
         identifier=re.sub(r"\W", "_", f"controller_{name}", flags=re.ASCII),
         description=f"Wheel-slide-protection controller {name}",
         version=controller.version,
-        variables=_variables(controller, config, paths),
+        variables=_variables_of_controller(controller, config, paths),
         can_save=not controller.libraries,
     )
     libraries = {
@@ -151,7 +152,7 @@ def _fmu(name: str, controller: Exported, config: Config, version: FmiVersion) -
     return archive_of(
         model,
         version,
-        _content(controller, start, paths),
+        _model_content(controller, start, paths),
         {**libraries, "documentation/index.html": _page(model, libraries)},
         controller.libraries or SYSTEMS,
     )
@@ -160,7 +161,7 @@ def _fmu(name: str, controller: Exported, config: Config, version: FmiVersion) -
 _OUTSIDE: Final[Any] = np.dtype(
     [("exchange", EXCHANGE), ("parameters", [("cycle_time", "f8"), ("initial_speed", "f8")])]
 )
-"""What an instance remembers of a controller in a library, which has a memory of its own."""
+"""Memory of an instance for a controller in a library, which keeps its own state."""
 _PATHS: Final = {
     "exchange": "exchange",
     "time": "time",
@@ -178,7 +179,7 @@ def _paths_of_parameters(controller: Exported) -> dict[str, str]:
     return {parameter.name: f"parameter_{number}" for number, parameter in enumerate(settable)}
 
 
-def _start(controller: Exported, config: Config, paths: Mapping[str, str]) -> Any:
+def _initial_memory(controller: Exported, config: Config, paths: Mapping[str, str]) -> Any:
     """Return the memory of an instance before anybody sets a variable."""
     own = _OUTSIDE if controller.libraries else rig.CONTROLLER_MEMORY
     fields = [(name, own[name]) for name in own.names]
@@ -199,14 +200,14 @@ def _start(controller: Exported, config: Config, paths: Mapping[str, str]) -> An
     return start
 
 
-def _content(controller: Exported, start: Any, paths: Mapping[str, str]) -> Content:
+def _model_content(controller: Exported, start: Any, paths: Mapping[str, str]) -> Content:
     if controller.libraries:
-        return Content("library", start, _PATHS, json=[*_json(controller, paths)])
+        return Content("library", start, _PATHS, json=[*_json_rows(controller, paths)])
     given = tuple(start[0][name] for name in rig.CONTROLLER_MEMORY.names)
     return Content("built_in", start, _PATHS, [*rig.placed(rig.ALONE.arguments, given, start)])
 
 
-def _json(controller: Exported, paths: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
+def _json_rows(controller: Exported, paths: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
     """Yield the parameters as the library writes them into the JSON object that the controller is given."""
     for parameter in controller.parameters:
         key = f"{json.dumps(parameter.name)}: "
@@ -216,7 +217,9 @@ def _json(controller: Exported, paths: Mapping[str, str]) -> Iterator[tuple[str,
             yield "fixed", key + json.dumps(parameter.value), ""
 
 
-def _variables(controller: Exported, config: Config, paths: Mapping[str, str]) -> tuple[Variable, ...]:
+def _variables_of_controller(
+    controller: Exported, config: Config, paths: Mapping[str, str]
+) -> tuple[Variable, ...]:
     cycle_time = CONTROLLERS[DEFAULT].declared_parameters()["cycle_time"]
     speed = Parameter("initial_speed", config.initial_speed, "m/s", None, "Of the train at the brake command")
     radius = Parameter("wheel_radius", config.wheel_radius[0], "m", None, "That its speed is computed with")
@@ -284,7 +287,7 @@ class Parameter(NamedTuple):
 
 
 class Exported(NamedTuple):
-    """What is exported: libraries by the names of their systems, or a built-in one by its name."""
+    """An exported controller: libraries by the names of their systems, or a built-in one by its name."""
 
     libraries: Mapping[str, bytes]
     version: str

@@ -29,7 +29,7 @@ _STYLE = "body{font:15px sans-serif;max-width:60em;margin:2em auto}td,th{text-al
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """What a model description says.
+    """Contents of a model description.
 
     Attributes:
         name: for people.

@@ -28,7 +28,7 @@ ENUMERATIONS: Final = {
         *("initial_speed", "wheel_radius"),  # of a controller
     ),
 }
-"""What the numbers in the file stand for, in their order from 0."""
+"""Names of the numbers in the file, which count from 0."""
 _SECTIONS: Final = ("variables", "arguments", "json", "memory", "constants", "texts")
 HEAD: Final = np.dtype(
     [
@@ -38,9 +38,9 @@ HEAD: Final = np.dtype(
         *((name, "i8", 2) for name in _SECTIONS),
     ]
 )
-"""Begins the file. `code` is the digest of the sources that the library was made from, `checksum` that of all
-behind it; `begun` is what of the memory is zeroed when a stop begins, but for `kept` bytes at the place of
-that name; of a section its first byte, and how many rows or bytes it has."""
+"""Head of the file. `code`: digest of the sources that the library was made from. `checksum`: CRC-32 of all
+bytes from `size` on. `begun`: number of bytes of the memory that are zeroed when a stop begins, except for
+`kept` bytes at the place of that name. Of a section: offset of its first byte, number of rows or bytes."""
 VARIABLE_ROW: Final = np.dtype(
     [
         *((name, "i8") for name in ("name", "kind", "causality", "storage", "place")),
@@ -58,20 +58,20 @@ LAYOUTS: Final = {"Head": HEAD, "VariableRow": VARIABLE_ROW, "ArgumentRow": ARGU
 
 
 class _Texts:
-    """Texts one behind the other, each with a zero at its end."""
+    """Texts one after the other, each terminated by a zero byte."""
 
     def __init__(self) -> None:
         self.content = b""
 
     def place(self, text: str) -> int:
-        """Return where a text lies, which is added."""
+        """Append a text and return its offset."""
         self.content, offset = self.content + text.encode() + b"\0", len(self.content)
         return offset
 
 
 @dataclass(frozen=True, slots=True)
 class Content:
-    """What is behind the functions of FMI in one FMU.
+    """Contents of the model file of one FMU.
 
     Attributes:
         kind: what it is of, a name of ``ENUMERATIONS["MODEL"]``.
@@ -92,14 +92,14 @@ class Content:
     json: Sequence[tuple[str, str, str]] = ()
 
     def file(self, model: Model, code: str) -> bytes:
-        """Return the file.
+        """Return the bytes of the file.
 
         Args:
             model: what its description says.
             code: digest of the sources that the libraries were built from.
         """
         texts = _Texts()
-        variables = [self._variable_row(each, texts) for each in model.variables]
+        variables = [self._variable_row(variable, texts) for variable in model.variables]
         json = [
             (ENUMERATIONS["FORM"].index(form), texts.place(text), self._place(path) if path else 0)
             for form, text, path in self.json
@@ -112,7 +112,7 @@ class Content:
             "constants": np.frombuffer(self.constants.tobytes(), np.uint8),
             "texts": np.frombuffer(texts.content, np.uint8),
         }
-        return _joined(self._head(model, code), sections)
+        return _serialised_model_file(self._head(model, code), sections)
 
     def _head(self, model: Model, code: str) -> Any:
         head = np.zeros(1, HEAD)
@@ -139,13 +139,19 @@ class Content:
         return (texts.place(variable.name), *numbers, offset, *(variable.range or (-np.inf, np.inf)))
 
 
-def _joined(head: Any, sections: Mapping[str, Any]) -> bytes:
+def _serialised_model_file(head: Any, sections: Mapping[str, Any]) -> bytes:
+    """Return the bytes of a file from its head and its sections.
+
+    Sets the offsets and lengths of the sections, the size of the file and the checksum in ``head``. Each
+    section begins at a multiple of 8 bytes. The checksum is the CRC-32 of all bytes from the field ``size``
+    on. The reader in the C++ sources must match.
+    """
     content = b""
     for name in _SECTIONS:
         content += bytes(-len(content) % 8)
         head[name] = HEAD.itemsize + len(content), len(sections[name])
         content += sections[name].tobytes()
     head["size"] = HEAD.itemsize + len(content)
-    behind = HEAD.fields["size"][1]  # type: ignore[index]
-    head["checksum"] = zlib.crc32(head.tobytes()[behind:] + content)
+    checked_from = HEAD.fields["size"][1]  # type: ignore[index]
+    head["checksum"] = zlib.crc32(head.tobytes()[checked_from:] + content)
     return bytes(head.tobytes() + content)

@@ -35,34 +35,34 @@ INSTANCE_MEMORY: Final[Any] = np.dtype(
 """A stop, the time of the simulation, whether the stop has ended, and the commands as last set."""
 
 
-def _command(name: str, description: str, kind: Literal["real", "boolean"] = "boolean") -> Variable:
+def _command_variable(name: str, description: str, kind: Literal["real", "boolean"] = "boolean") -> Variable:
     start = "false" if kind == "boolean" else "0.0"
     return Variable(name, f"commands.{name}", description, "", kind, "input", start=start)
 
 
-def _sensor(
+def _sensor_variable(
     name: str, description: str, unit: str = "", kind: Literal["real", "boolean"] = "real", field: str = ""
 ) -> Variable:
-    """Return what a controller is shown; `field` of the exchange where that is not called as the variable."""
+    """Return the variable of a sensor; `field`: its field in the exchange, where that has another name."""
     return Variable(name, f"stop.exchange.{field or name}", description, unit, kind)
 
 
-def _truth(name: str, description: str, unit: str = "") -> Variable:
+def _true_value_variable(name: str, description: str, unit: str = "") -> Variable:
     return Variable(name, f"stop.modules.{name.removeprefix('true_')}", description, unit)
 
 
 VARIABLES: Final = (
     Variable("time", "time", "Time of the simulation", "s", causality="independent"),
     *of_wheelsets(
-        _command("hold", "Holding magnet energised"),
-        _command("vent", "Venting magnet energised; forbidden without the holding magnet"),
-        _sensor("wheel_speed", "Circumferential, as its sensor shows it", "m/s"),
-        _sensor("speed_valid", "False where the speed sensor reports a fault", kind="boolean"),
-        _sensor(
+        _command_variable("hold", "Holding magnet energised"),
+        _command_variable("vent", "Venting magnet energised; forbidden without the holding magnet"),
+        _sensor_variable("wheel_speed", "Circumferential, as its sensor shows it", "m/s"),
+        _sensor_variable("speed_valid", "False where the speed sensor reports a fault", kind="boolean"),
+        _sensor_variable(
             "cylinder_pressure", "Brake cylinder pressure above atmospheric, as its sensor shows it", "Pa"
         ),
     ),
-    _sensor("brake_demand", "Share of full service; a brake is demanded above 0"),
+    _sensor_variable("brake_demand", "Share of full service; a brake is demanded above 0"),
     Variable("train_speed", "stop.train.speed", "True speed of the train", "m/s"),
     Variable("distance", "stop.train.distance", "Distance since the brake command", "m"),
     Variable("brake_line_pressure", "stop.train.brake_line_pressure", "Above atmospheric", "Pa"),
@@ -75,36 +75,42 @@ VARIABLES: Final = (
     Variable("braking_distance", "stop.car.stop_position", "0 until the train stands, or is at `until`", "m"),
     Variable("braking_time", "stop.car.stop_time", "0 until the train stands, or is at `until`", "s"),
     *of_wheelsets(
-        _truth("true_wheel_speed", "True circumferential speed", "m/s"),
-        _truth("slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
-        _truth("friction", "Friction coefficient of the rail under the wheelset"),
-        _truth("adhesion", "Adhesion in use"),
-        _truth("wheel_load", "Load of one wheel", "N"),
-        _truth("tank_pressure", "True pressure above atmospheric", "Pa"),
-        _truth("clamping_force", "Clamping force of one caliper", "N"),
-        _truth("brake_torque", "Brake torque of the wheelset", "N.m"),
+        _true_value_variable("true_wheel_speed", "True circumferential speed", "m/s"),
+        _true_value_variable("slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
+        _true_value_variable("friction", "Friction coefficient of the rail under the wheelset"),
+        _true_value_variable("adhesion", "Adhesion in use"),
+        _true_value_variable("wheel_load", "Load of one wheel", "N"),
+        _true_value_variable("tank_pressure", "True pressure above atmospheric", "Pa"),
+        _true_value_variable("clamping_force", "Clamping force of one caliper", "N"),
+        _true_value_variable("brake_torque", "Brake torque of the wheelset", "N.m"),
     ),
     Variable("seed", "stop.parameters.seed", "Seed of noise and random rails", "", "integer", "parameter"),
 )
 """In the order of their value references, from 0."""
 VARIABLES_2: Final = (
     *of_wheelsets(
-        _command("dynamic_reduction", "Share that is taken off the dynamic brake, 0 to 1", "real"),
-        _command("sand_request", "Asks for sand; obeyed by sanders with `when: requested`"),
-        _sensor("dynamic_brake", "What the motor gives of what it could at its speed; 0 without a motor"),
+        _command_variable("dynamic_reduction", "Share that is taken off the dynamic brake, 0 to 1", "real"),
+        _command_variable("sand_request", "Asks for sand; obeyed by sanders with `when: requested`"),
+        _sensor_variable(
+            "dynamic_brake", "What the motor gives of what it could at its speed; 0 without a motor"
+        ),
     ),
-    _command("track_brake_request", "Asks for the track brake; obeyed with `when: requested`"),
-    _sensor("axle_load", "Of one axle at rest", "N"),
-    _sensor("brake_command", "Share of full service, before the delays of the brake"),
-    _sensor(
+    _command_variable("track_brake_request", "Asks for the track brake; obeyed with `when: requested`"),
+    _sensor_variable("axle_load", "Of one axle at rest", "N"),
+    _sensor_variable("brake_command", "Share of full service, before the delays of the brake"),
+    _sensor_variable(
         "measured_train_speed",
         "From outside the wheelsets: the controller's train_speed; 0 where it is not valid",
         "m/s",
         field="train_speed",
     ),
-    _sensor("train_speed_valid", "False without such a source, and while it is lost", kind="boolean"),
-    _sensor("acceleration", "As an accelerometer on the car shows it; 0 where it is not valid", "m/s2"),
-    _sensor("acceleration_valid", "False without an accelerometer", kind="boolean"),
+    _sensor_variable(
+        "train_speed_valid", "False without such a source, and while it is lost", kind="boolean"
+    ),
+    _sensor_variable(
+        "acceleration", "As an accelerometer on the car shows it; 0 where it is not valid", "m/s2"
+    ),
+    _sensor_variable("acceleration_valid", "False without an accelerometer", kind="boolean"),
 )
 """Further ones of a rig whose commands keep version 2 of the contract of controllers."""
 
@@ -136,7 +142,7 @@ def build_fmu(case: scenario.Case, version: FmiVersion, contract: int = 1) -> by
     case = bench.identified(case)
     inputs = rig.assemble(case)
     inputs.parameters["controller_contract"] = contract
-    seed = _seed(int(inputs.parameters["seed"]), version)
+    seed = _seed_variable(int(inputs.parameters["seed"]), version)
     variables = (*VARIABLES[:-1], seed, *(VARIABLES_2 if contract > 1 else ()))
     cycle_time = float(inputs.parameters["cycle_time"])
     model = Model(
@@ -153,7 +159,7 @@ def build_fmu(case: scenario.Case, version: FmiVersion, contract: int = 1) -> by
     return archive_of(
         model,
         version,
-        _content(inputs, contract),
+        _model_content(inputs, contract),
         {
             "documentation/index.html": page(f"Brake rig: {case.id}", *_page(case, parts, variables)),
             "resources/case.json": _provenance(case, parts),
@@ -161,7 +167,7 @@ def build_fmu(case: scenario.Case, version: FmiVersion, contract: int = 1) -> by
     )
 
 
-def _seed(start: int, version: FmiVersion) -> Variable:
+def _seed_variable(start: int, version: FmiVersion) -> Variable:
     largest = _LARGEST_SEED[version]
     if start > largest:
         raise ValueError(
@@ -177,8 +183,8 @@ def _parts_inside(case: scenario.Case) -> dict[str, evaluation.EffectivePart]:
     return {role: part for role, part in parts.items() if role.partition(".")[0] not in outside}
 
 
-def _content(inputs: StopInputs, contract: int) -> Content:
-    """Return what the library reads: the case, and where the machine code finds it."""
+def _model_content(inputs: StopInputs, contract: int) -> Content:
+    """Return the contents of the model file: memory and constants of the case, arguments of the code."""
     case = rig.alone(inputs)
     start = np.zeros(1, INSTANCE_MEMORY)
     stop, commands = start[0]["stop"], start[0]["commands"]
@@ -214,7 +220,7 @@ def _provenance(case: scenario.Case, parts: dict[str, evaluation.EffectivePart])
         "cycle_time": float(case.scenario.controller.cycle_time),
         "scenario": case.path.name,
         "parameters": dict(case.parameters),
-        "inputs": dict(_files(case)),
+        "inputs": dict(_files_with_digests(case)),
         "parts": evaluation.parts_document([parts]),
     }
     return json.dumps(content, indent=1, ensure_ascii=False).encode() + b"\n"
@@ -234,13 +240,13 @@ def _page(
     yield "<h2>Versions</h2>"
     yield from table(("program", "version"), [("uictest", __version__)])
     yield "<h2>Files</h2>"
-    yield from table(("file", "SHA-256"), _files(case))
+    yield from table(("file", "SHA-256"), _files_with_digests(case))
     for role, part in parts.items():
         yield f"<h2>{escape(role)}: {escape(part.name)}</h2>"
         yield from table(("key", "value", "mark"), ((p.key, p.written, p.mark) for p in part.parameters))
 
 
-def _files(case: scenario.Case) -> Iterator[tuple[str, str]]:
+def _files_with_digests(case: scenario.Case) -> Iterator[tuple[str, str]]:
     """Yield the files of a case with their SHA-256; a folder of this machine is nobody else's business."""
     for name, digest in case.inputs.items():
         yield (Path(name).name if Path(name).is_absolute() else name), digest

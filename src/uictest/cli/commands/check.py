@@ -37,7 +37,7 @@ def check(
     errors += implausible if strict else ()
     warn_of_implausible(() if strict else implausible)
     if errors:
-        _show(errors, shown)
+        _show_diagnostics(errors, shown)
         message(f"uictest: {report.counted(len(errors), 'error')}")
         return ExitCode.ERROR if any(error.trace for error in errors) else ExitCode.USAGE
     if shown is Format.JSON:
@@ -75,20 +75,20 @@ def _require_fit(cases: Sequence[scenario.Case]) -> None:
         except runs.InvalidInputError as error:
             unreadable[str(path)] = "; ".join(error.messages)
     problems = [
-        yaml.diagnose(_place(case, "validated"), reason, "validated")
+        yaml.diagnose(_location_of_key(case, "validated"), reason, "validated")
         for case in cases
         if (reason := unreadable.get(case.scenario.validated or ""))
     ]
     for case in cases:
         for misfit in scenario.misfits(case.scenario):
-            place = _place(case, misfit.key)
+            place = _location_of_key(case, misfit.key)
             problems.append(yaml.diagnose(place, misfit.sentence, misfit.key, scenario.FIT_HINT))
     if problems:
         raise yaml.ScenarioErrors(tuple(dict.fromkeys(problems)))
 
 
-def _place(case: scenario.Case, key: str) -> yaml.Location:
-    """Return where the file of a case, or one that it refers to, sets a key; else the whole file."""
+def _location_of_key(case: scenario.Case, key: str) -> yaml.Location:
+    """Return the location of a key in the file of a case or one that it refers to; else the whole file."""
     return runs.place_of_key(case.path, key) or yaml.whole_file(case.path)
 
 
@@ -107,7 +107,7 @@ def _load_sweep(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
     return [plan.base]
 
 
-def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
+def _show_diagnostics(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
     if shown is Format.JSON:
         errors = [{name: getattr(error, name) for name in _FIELDS} for error in diagnostics]
         data(json.dumps(errors, indent=2))

@@ -59,7 +59,9 @@ def compare(
         raise typer.BadParameter("give a second run or recording, or --over KEY", param_hint="B")
     if channels and page is None:
         raise typer.BadParameter("there is no --html page to draw on", param_hint="--channel")
-    compared = _compared(first, second, tolerances_of(tolerance), None if page is None else channels or [])
+    compared = _compare_paths(
+        first, second, tolerances_of(tolerance), None if page is None else channels or []
+    )
     if shown is PlainFormat.JSON:
         data(comparison.comparison_json(compared))
     else:
@@ -74,7 +76,7 @@ def compare(
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 
-def _compared(
+def _compare_paths(
     first: Path, second: Path, tolerances: comparison.Tolerances, channels: Sequence[str] | None
 ) -> comparison.Comparison:
     """Compare two runs or two recordings; `channels` are patterns to draw, None where there is no page."""

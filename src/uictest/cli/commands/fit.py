@@ -65,7 +65,7 @@ def fit(
     mapped, _ = recordings.channel_map(map_name, trusted, trigger)
     case = recordings.one_case(scenario, expression, overrides or (), trusted)
     [stop] = runs.each_file([file], lambda path: runs.read_stop(path, mapped))
-    positions = _positions(breaks or ())
+    positions = _parsed_positions(breaks or ())
     try:
         result = fitting.fit_stop(stop, case.scenario, positions, with_pads=with_pads)
     except fitting.FitError as error:
@@ -80,7 +80,7 @@ def fit(
     return ExitCode.MET if result.determined else ExitCode.MISSED
 
 
-def _positions(texts: Sequence[str]) -> list[float]:
+def _parsed_positions(texts: Sequence[str]) -> list[float]:
     """Return the positions along the track at which the friction changes, m."""
     try:
         positions = [float(yaml.parse_quantity(text, "length")) for text in texts]

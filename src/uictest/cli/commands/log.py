@@ -65,12 +65,12 @@ def log(
     junit = options.junit_file(junit, output)
     mapped, inputs = recordings.channel_map(map_name, trusted, None)
     _require_many_triggers(map_name, mapped.preparation)
-    settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
+    settings = _finder_settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     # What is stated wrongly is told before the log is read.
     stated = recordings.case_of_stop(scenario, expression, overrides or (), trusted)
     vehicle_known = stated("log", settings.from_speed).vehicle_stated
     is_dry = _selected_by(dry)
-    in_log, written = _stops(files, mapped, settings, folder)
+    in_log, written = _found_stops(files, mapped, settings, folder)
     if not quiet:
         _write_events(in_log)
     named = {f"stop-{number:04d}": event for number, event in enumerate(in_log.stops, start=1)}
@@ -85,7 +85,7 @@ def log(
     def case_of(name: str, speed: float) -> scenarios.Case:
         return of_dry(name, speed) if name in on_dry_rail else stated(name, speed)
 
-    stops = runs.stops_in_recordings(list(written), _canonical(mapped), inputs, case_of, found=True)
+    stops = runs.stops_in_recordings(list(written), _canonical_map(mapped), inputs, case_of, found=True)
     if any(file.digest != written[file.path] for file in stops.files):
         raise runs.InvalidInputError(
             f"{folder}: another log was written there: name a folder with --recordings"
@@ -94,7 +94,7 @@ def log(
     request = campaign.RecordingRequest("all")
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=together.add)
     batch = batch._replace(
-        passed_over=[_sentence(event) for event in in_log.passed_over], together=together.campaign
+        passed_over=[_passed_over_sentence(event) for event in in_log.passed_over], together=together.campaign
     )
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
@@ -134,7 +134,7 @@ def _selected_by(expression: str | None) -> Callable[[str, Path], bool]:
     return selected
 
 
-def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.FinderSettings:
+def _finder_settings(from_speed: str, to_speed: str, standstill: float) -> service_log.FinderSettings:
     with rejected("--to"):
         lowest = float(yaml.parse_quantity(to_speed, "speed"))
         if lowest < 0.0:
@@ -146,7 +146,7 @@ def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.
     return service_log.FinderSettings(least, lowest)
 
 
-def _stops(
+def _found_stops(
     paths: Sequence[Path], mapped: field_data.ChannelMap, settings: service_log.FinderSettings, folder: Path
 ) -> tuple[service_log.Log, dict[Path, str]]:
     """Find and write the stops. Raises InvalidInputError where a file cannot be read."""
@@ -173,7 +173,7 @@ def _stops(
         raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error
 
 
-def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
+def _canonical_map(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
     """Return the map of the stops that were cut out: canonical names, prepared as the log's map says.
 
     Each states its brake command.
@@ -186,17 +186,17 @@ def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
 def _write_events(in_log: service_log.Log) -> None:
     """Write to stderr what was passed over, and what is unusual about stops."""
     for event in in_log.passed_over:
-        message(f"uictest: passed over: {_sentence(event)}")
+        message(f"uictest: passed over: {_passed_over_sentence(event)}")
     for number, event in enumerate(in_log.stops, start=1):
         if event.remarks:
-            message(f"uictest: stop-{number:04d}: {_location(event)}: {'; '.join(event.remarks)}")
+            message(f"uictest: stop-{number:04d}: {_location_text(event)}: {'; '.join(event.remarks)}")
     message(f"uictest: {report.counted(len(in_log.stops), 'stop')}, {len(in_log.passed_over)} passed over")
 
 
-def _sentence(event: service_log.LoggedEvent) -> str:
-    return f"{_location(event)}: {event.reason}"
+def _passed_over_sentence(event: service_log.LoggedEvent) -> str:
+    return f"{_location_text(event)}: {event.reason}"
 
 
-def _location(event: service_log.LoggedEvent) -> str:
+def _location_text(event: service_log.LoggedEvent) -> str:
     time = service_log.clock_text(event.time)
     return f"{event.file} at {time} (sample {event.row + 1}, {event.distance:.0f} m)"

@@ -75,7 +75,7 @@ def _page(folder: Path, *, last: bool) -> Path:
 
 
 def _why_none(folder: Path, entry: history.Unlisted, listing: history.Listing) -> str:
-    """Return why a folder is no run, or, of a folder of runs, why the first of those in it is none."""
+    """Return why a folder is not a run, or, of a folder of runs, why the first of those in it is none."""
     if not listing.unlisted or (folder / history.MANIFEST).exists():
         return entry.reason
     first = listing.unlisted[0]

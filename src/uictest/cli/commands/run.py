@@ -133,7 +133,7 @@ def _require_paced(cases: Sequence[scenario.Case], planned: Sequence[series.Seri
 
 
 def _why_not_paced(case: scenario.Case) -> str:
-    """Return why the stop of a case cannot be paced by the clock; empty where it can."""
+    """Return the reason for which a stop cannot be paced by the clock; empty where it can."""
     if case.scenario.repeat > 1:
         return f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1"
     if case.train is not None:

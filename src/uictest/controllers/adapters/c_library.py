@@ -40,7 +40,7 @@ _FUNCTIONS: Final[dict[str, tuple[Any, tuple[Any, ...]]]] = {
     "destroy": (None, (ctypes.c_void_p,)),
     "last_error": (ctypes.c_char_p, (ctypes.c_void_p,)),
 }
-"""Name behind `uictest_` -> type of the result, types of the arguments."""
+"""Name after the prefix `uictest_` -> type of the result, types of the arguments."""
 _LOADED: Final[dict[str, str]] = {}
 """Libraries that this process has loaded: path -> SHA-256."""
 _IN_USE: Final[set[int]] = set()
@@ -90,13 +90,13 @@ class LibraryInstance(ControllerInstance):
 
 def open_controller(program: ControllerProgram, config: Config) -> ControllerInstance:
     """Load the library, once per process, and create a controller. Raises ControllerError."""
-    library = _loaded(program.location, program.sha256)
+    library = _loaded_library(program.location, program.sha256)
     reject_undeclared(program, _stated_text(library, "parameters"))
     return LibraryInstance(library, config, program.parameters)
 
 
 @cache
-def _loaded(location: str, sha256: str) -> Any:
+def _loaded_library(location: str, sha256: str) -> Any:
     path = Path(location)
     if _LOADED.get(location, sha256) != sha256:  # the system's loader would return the one that it has
         raise ControllerError(f"{path.name} was built anew: this process has loaded it before; start another")
@@ -124,17 +124,17 @@ def _loaded(location: str, sha256: str) -> Any:
 
 
 def _stated_text(library: Any, name: str) -> str | None:
-    """Return what a function that may be left out states of the library; None where it is left out."""
+    """Return the result of an optional function of the library; None where the function is missing."""
     function = getattr(library, f"uictest_{name}", None)
     if function is None:
         return None
     function.restype = ctypes.c_char_p
-    return _text(function())
+    return _decoded_text(function())
 
 
 def _last_error(library: Any, handle: int | None) -> str:
-    return _text(library.uictest_last_error(handle))
+    return _decoded_text(library.uictest_last_error(handle))
 
 
-def _text(content: bytes | None) -> str:
+def _decoded_text(content: bytes | None) -> str:
     return (content or b"").decode("utf-8", "replace")

@@ -190,7 +190,7 @@ class FmuInstance(CalledInstance):
         self._inputs = grouped(slave, inputs)
         self._parameters = grouped(slave, [*constants, *parameters])
         self._outputs = grouped(slave, outputs)
-        self._magnets = {name: _labels(outputs, name) for name in ("hold", "vent")}
+        self._magnets = {name: _labels_by_wheelset(outputs, name) for name in ("hold", "vent")}
 
     def reset(self) -> None:
         """Set all variables to their start values, parameters to those of the scenario, and initialise.
@@ -198,7 +198,7 @@ class FmuInstance(CalledInstance):
         The inputs are at first those of a train that rolls with its brakes released.
         """
         config = self._config
-        constants = {declared.name: _listed(getattr(config, declared.name)) for declared in CONSTANTS}
+        constants = {declared.name: _as_sequence(getattr(config, declared.name)) for declared in CONSTANTS}
         speeds, pressures = (config.initial_speed,) * WHEELSETS, (0.0,) * WHEELSETS
         with self._slave.checked():
             self._slave.reset()
@@ -229,7 +229,9 @@ class FmuInstance(CalledInstance):
         self._slaves.give_back(self._slave)
 
     def _set_inputs(self, inputs: Inputs) -> None:
-        values = {declared.name: _listed(getattr(inputs, declared.name)) for declared in (*INPUTS, *INPUTS_2)}
+        values = {
+            declared.name: _as_sequence(getattr(inputs, declared.name)) for declared in (*INPUTS, *INPUTS_2)
+        }
         _set(self._inputs, values)
 
 
@@ -238,11 +240,11 @@ def _set(groups: Sequence[VariableGroup], values: Values) -> None:
         group.set(values)
 
 
-def _listed(value: Any) -> Sequence[Any]:
+def _as_sequence(value: Any) -> Sequence[Any]:
     return value if isinstance(value, tuple) else (value,)
 
 
-def _labels(outputs: Sequence[BoundVariable], name: str) -> list[str]:
+def _labels_by_wheelset(outputs: Sequence[BoundVariable], name: str) -> list[str]:
     of_place = {
         number: bound.label(index)
         for bound in outputs
@@ -267,7 +269,7 @@ def _bits(value: Any) -> int:
 
 
 Slot = tuple[str, int]
-"""Where a value stands: our name of the quantity, number of the wheelset from 0."""
+"""Position of a value: our name of the quantity, number of the wheelset from 0."""
 Values = Mapping[str, Sequence[Any]]
 
 
@@ -279,7 +281,7 @@ class BoundVariable:
     slots: tuple[Slot, ...]
 
     def label(self, element: int) -> str:
-        """Return what the FMU calls an element, counted from 0."""
+        """Return the FMU's name of an element, counted from 0."""
         return f"{self.variable.name}[{element + 1}]" if len(self.slots) > 1 else str(self.variable.name)
 
 
@@ -332,7 +334,7 @@ def _bind(variables: Mapping[str, Any], quantity: Declared, name: str | None) ->
     if matching is None:
         if name is None and not quantity.is_needed:
             return []
-        raise ControllerError(_missing(variables, quantity, name, candidates[0]))
+        raise ControllerError(_missing_variable_message(variables, quantity, name, candidates[0]))
     chosen = [variables[names] for names in matching]
     unfit = next((names for names in chosen if not quantity.fits(names)), None)
     if unfit is not None and name is None and not quantity.is_needed:
@@ -374,7 +376,9 @@ def _check_size(variable: Any, expected: int) -> None:
         raise ControllerError(f"has {values} in {variable.name}, expected {expected}{hint}")
 
 
-def _missing(variables: Mapping[str, Any], quantity: Declared, name: str | None, names: list[str]) -> str:
+def _missing_variable_message(
+    variables: Mapping[str, Any], quantity: Declared, name: str | None, names: list[str]
+) -> str:
     there = [each.name for each in variables.values() if each.causality == quantity.causality]
     absent = next(each for each in names if each not in variables)
     shown = ", ".join(there[:_SHOWN]) or "none"

@@ -1,4 +1,4 @@
-"""From the file of an FMU to an instance of it: FMPy's slaves of FMI 2.0 and FMI 3.0 behind one face.
+"""From the file of an FMU to an instance of it: FMPy's slaves of FMI 2.0 and FMI 3.0 with one interface.
 
 FMPy calls the functions and raises where they fail. What it leaves to its caller stands here: which files may
 be loaded, what a user is told, what the FMU has logged, and when an instance is used again or released.

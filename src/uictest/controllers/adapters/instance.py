@@ -1,4 +1,4 @@
-"""What every adapter returns: a controller that compiled code calls by address."""
+"""The result of every adapter: a controller that compiled code calls by address."""
 
 import ctypes
 import hashlib
@@ -108,7 +108,7 @@ class ControllerInstance(ABC):
         """Return to the state after creation. Raises ControllerError."""
 
     def last_error(self) -> str:
-        """Return why the last step failed, empty if the controller did not say."""
+        """Return the reason why the last step failed; empty if the controller gave none."""
         return ""
 
     def close(self) -> None:  # noqa: B027 - most have nothing to release
@@ -127,7 +127,7 @@ class CallbackInstance(ControllerInstance):
             sys.unraisablehook = _note_lost
 
     def last_error(self) -> str:
-        """Return what the last step raised."""
+        """Return the exception of the last step, in words."""
         return self._error
 
     @abstractmethod
@@ -194,19 +194,19 @@ def _place_of(error: BaseException) -> str:
     return f" ({Path(foreign[-1].filename).name}, line {foreign[-1].lineno})" if foreign else ""
 
 
-def _packed(layout: Any, *names: str) -> Struct:
-    """Return how fields that lie together are packed: whole numbers, floats, and arrays of them."""
+def _packing_of_fields(layout: Any, *names: str) -> Struct:
+    """Return the packing of adjacent fields: whole numbers, floats, and arrays of them."""
     codes = {"i8": "q", "f8": "d", "i4": "i", "u4": "I"}
     kinds = [layout[name] for name in names]
     each = (f"{math.prod(kind.shape)}{codes[kind.base.kind + str(kind.base.itemsize)]}" for kind in kinds)
     return Struct("=" + "".join(each))
 
 
-_INPUTS: Final = _packed(INPUTS, *INPUTS.names or ())
-_OUTPUTS: Final = _packed(OUTPUTS, "reference_speed", "hold", "vent", "diagnosis")
+_INPUTS: Final = _packing_of_fields(INPUTS, *INPUTS.names or ())
+_OUTPUTS: Final = _packing_of_fields(OUTPUTS, "reference_speed", "hold", "vent", "diagnosis")
 _ADDED: Final = ("dynamic_reduction", "sand_request", "track_brake_request")
 """What version 2 has added to the outputs."""
-_ADDED_OUTPUTS: Final = _packed(OUTPUTS, *_ADDED)
+_ADDED_OUTPUTS: Final = _packing_of_fields(OUTPUTS, *_ADDED)
 _NONE: Final = (0,) * WHEELSETS
 _STATES: Final[Any] = {states: states for states in product((0, 1), repeat=WHEELSETS)}
 
@@ -259,7 +259,7 @@ def write_outputs(memory: Any, outputs: Outputs, contract: int) -> None:
 
 
 def _of_version_2(reduction: Any, sand: Any, track_brake: Any) -> tuple[Any, ...]:
-    shares = _four("dynamic_reduction", _NONE if reduction is None else reduction)
+    shares = _four_values("dynamic_reduction", _NONE if reduction is None else reduction)
     return (
         *(_number(f"dynamic_reduction[{number}]", share) for number, share in enumerate(shares)),
         *_magnets("sand_request", _NONE if sand is None else sand),
@@ -268,7 +268,7 @@ def _of_version_2(reduction: Any, sand: Any, track_brake: Any) -> tuple[Any, ...
 
 
 def _magnets(name: str, values: Any) -> tuple[int, ...]:
-    listed = _four(name, values)
+    listed = _four_values(name, values)
     with suppress(KeyError, TypeError):  # what is neither 0 nor 1, and what is no number at all
         return tuple(_STATES[listed])
     return tuple(_bit(f"{name}[{number}]", value) for number, value in enumerate(listed))
@@ -288,7 +288,7 @@ def _bits(diagnosis: Any) -> int:
     raise ControllerError(f"diagnosis is {diagnosis!r}, expected a whole number of 32 bits")
 
 
-def _four(name: str, values: Any) -> tuple[Any, ...]:
+def _four_values(name: str, values: Any) -> tuple[Any, ...]:
     try:
         listed = tuple(values)
     except TypeError:

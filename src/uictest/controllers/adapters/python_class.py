@@ -68,7 +68,7 @@ def open_controller(program: ControllerProgram, config: Config) -> PythonInstanc
 
 @cache
 def _registered_class(name: str) -> tuple[type, str]:
-    """Return what is registered under a name, and name and version of the package it comes from."""
+    """Return the object registered under a name, and name and version of its package."""
     entries = installed(name)
     if not entries:
         known = ", ".join(installed_names()) or "none"
@@ -89,7 +89,7 @@ def _registered_class(name: str) -> tuple[type, str]:
 
 def _class_in_file(program: ControllerProgram) -> tuple[type, str]:
     with _loading:
-        module = _loaded(program.location, program.sha256)
+        module = _loaded_module(program.location, program.sha256)
     name = program.options["class"]
     kind = getattr(module, name, None)
     if not isinstance(kind, type):
@@ -118,7 +118,7 @@ class _CheckedSource(SourceLoader):
 
 
 @cache
-def _loaded(location: str, sha256: str) -> ModuleType:
+def _loaded_module(location: str, sha256: str) -> ModuleType:
     path = Path(location)
     loader = _CheckedSource(location, unchanged_content(path, sha256))
     # dataclasses look a class's module up by its name; a file called json.py takes no other's place.

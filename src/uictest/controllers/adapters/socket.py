@@ -190,7 +190,7 @@ class RealTime:
         now = self._clock()
         if self._cycle == 0:
             self._first = now
-        due = self._due(self._cycle)
+        due = self._due_time(self._cycle)
         if now < due:
             self._wait(due - now)
             now = self._clock()
@@ -204,18 +204,18 @@ class RealTime:
         if now - self._sent > self._longest:
             self._longest, self._longest_cycle = now - self._sent, self._cycle
         self._cycle += 1
-        self._late = now > self._due(self._cycle)
+        self._late = now > self._due_time(self._cycle)
         self._missed += self._late
 
     @property
     def response_times(self) -> ResponseTimes:
-        """How the controller answered so far."""
+        """Statistics of the controller's answers so far."""
         return ResponseTimes(
             *(self._cycle, self._cycle_time, self._missed),
             *(self._longest, self._longest_cycle, self._jitter),
         )
 
-    def _due(self, cycle: int) -> float:
+    def _due_time(self, cycle: int) -> float:
         return self._first + cycle * self._cycle_time
 
 
@@ -226,7 +226,7 @@ _PAUSE: Final = 0.05
 
 
 class _Address:
-    """What all stops at an address share."""
+    """State that all stops at an address share."""
 
     def __init__(self) -> None:
         self.free = Lock()
@@ -292,7 +292,7 @@ class Turn:
         until = monotonic() + self._address.patience
         while True:
             try:
-                return self._attempt()
+                return self._try_to_connect()
             except OSError as error:
                 if monotonic() >= until:
                     self._address.patience = 0.0
@@ -301,7 +301,7 @@ class Turn:
                     raise ControllerError(message) from None
             sleep(_PAUSE)
 
-    def _attempt(self) -> socket.socket:
+    def _try_to_connect(self) -> socket.socket:
         self._reject_interrupted()
         host, _, port = self._location.removeprefix("tcp://").rpartition(":")
         stream = socket.create_connection((host, int(port)), timeout=STARTING)
@@ -334,7 +334,7 @@ class SocketInstance(CallbackInstance):
 
     @property
     def response_times(self) -> ResponseTimes | None:
-        """How the program answered, where cycles are paced by the clock."""
+        """Statistics of the program's answers, where cycles are paced by the clock."""
         return None if self._clock is None else self._clock.response_times
 
     def reset(self) -> None:

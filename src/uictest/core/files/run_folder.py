@@ -88,7 +88,7 @@ class FolderLock:
         latest = time.monotonic() + patience
         while True:
             try:
-                self._file = _locked(self._path, make=not abandoned)
+                self._file = _acquire_lock_file(self._path, make=not abandoned)
                 self._require_only(shared=shared)
                 break
             except FolderInUseError:
@@ -105,7 +105,7 @@ class FolderLock:
     def release(self) -> None:
         """Release the lock, once; its file is removed, unless it is to stay."""
         if not self._file.closed:
-            _release(self._file, self._path, leave=self.leaves_file)
+            _release_lock_file(self._file, self._path, leave=self.leaves_file)
 
     def _require_only(self, *, shared: bool) -> None:
         """Write who holds the lock, and release it where another process holds one that excludes it."""
@@ -117,52 +117,52 @@ class FolderLock:
             # Whoever comes at the same time looks for this one after taking its own: one of the two sees it.
             for other in [self._folder / LOCK] if shared else self._folder.glob(_SHARED):
                 with suppress(FileNotFoundError, FileExistsError):  # it is free, or no lock
-                    _release(_locked(other, make=False), other)
+                    _release_lock_file(_acquire_lock_file(other, make=False), other)
         except BaseException:
             self.release()
             raise
 
 
-def _locked(path: Path, *, make: bool) -> FileIO:
+def _acquire_lock_file(path: Path, *, make: bool) -> FileIO:
     """Return the open file of a lock that is held now; `make` makes a missing one.
 
     Raises FolderInUseError, OSError.
     """
     while True:
         with ExitStack() as attempt:
-            file = attempt.enter_context(_opened(path, make=make))
-            granted = _granted(file)
+            file = attempt.enter_context(_open_lock_file(path, make=make))
+            granted = _try_lock(file)
             if not granted and not make:
                 raise FileNotFoundError(errno.ENOENT, "there are no locks here", str(path))
             if granted and not _is_at(path, file):
                 continue  # its last holder has just removed it
             status = os.fstat(file.fileno())
-            if status.st_nlink > 1 or not (_holder(file) or (make and not status.st_size)):
-                raise _no_lock(path)
+            if status.st_nlink > 1 or not (_read_holder(file) or (make and not status.st_size)):
+                raise _not_a_lock_error(path)
             attempt.pop_all()
             return file
 
 
-def _opened(path: Path, *, make: bool) -> FileIO:
+def _open_lock_file(path: Path, *, make: bool) -> FileIO:
     with suppress(FileNotFoundError):
         if not stat.S_ISREG(path.lstat().st_mode):
-            raise _no_lock(path)
+            raise _not_a_lock_error(path)
     return path.open("a+b" if make else "r+b", buffering=0)
 
 
-def _no_lock(path: Path) -> FileExistsError:
+def _not_a_lock_error(path: Path) -> FileExistsError:
     text = "is no lock of uictest and stays as it is: remove it, or use another folder"
     return FileExistsError(errno.EEXIST, text, str(path))
 
 
-def _holder(file: FileIO) -> bytes:
-    """Return who holds a lock as its file says, with the mark; nothing where it is none of uictest."""
+def _read_holder(file: FileIO) -> bytes:
+    """Return the mark and the holder that a lock file states; empty if it is not a lock of uictest."""
     file.seek(1)  # nobody else can read the first byte of a locked file of Windows
     content = _MARK[:1] + file.read(_LONGEST)
     return content if content.startswith(_MARK) else b""
 
 
-def _granted(file: FileIO) -> bool:
+def _try_lock(file: FileIO) -> bool:
     """Lock an open file; return False where there are no locks. Raises FolderInUseError."""
     from filelock import lock_descriptor
 
@@ -171,7 +171,7 @@ def _granted(file: FileIO) -> bool:
             return True
     except OSError:
         return False
-    holder = _holder(file).removeprefix(_MARK).decode("utf-8", "replace")
+    holder = _read_holder(file).removeprefix(_MARK).decode("utf-8", "replace")
     raise FolderInUseError(holder or "another process")
 
 
@@ -182,7 +182,7 @@ def _is_at(path: Path, file: FileIO) -> bool:
         return False
 
 
-def _release(file: FileIO, path: Path, *, leave: bool = False) -> None:
+def _release_lock_file(file: FileIO, path: Path, *, leave: bool = False) -> None:
     """Release a lock; its file is removed, unless it is to stay or is no longer that of this path."""
     with file, suppress(OSError):
         if not leave and _is_at(path, file):
@@ -219,8 +219,8 @@ class RunFolder:
         with writing(parent), ExitStack() as undo:
             undo.callback(remove_empty, make_folder(parent))
             _remove_abandoned(parent)
-            self._name = _reserved(parent, name)
-            self.path = _hidden(parent / self._name)
+            self._name = _reserve_name(parent, name)
+            self.path = _hidden_folder_of(parent / self._name)
             undo.callback(remove_empty, [self.path])
             self._lock = undo.enter_context(FolderLock(self.path))
             undo.callback(self._remove_contents)
@@ -246,17 +246,17 @@ class RunFolder:
     def publish(self, name: str = "") -> Path:
         """Give the folder its name, or another one, and return where it stands now. Raises WriteError."""
         # Somebody may have taken it meanwhile.
-        names = itertools.chain([name or self._name], _names(self._wanted))
+        names = itertools.chain([name or self._name], _candidate_names(self._wanted))
         self._lock.release()  # Windows renames no folder with an open file
         with writing(self._parent / self._name):
-            self._name = next(name for name in names if _renamed(self.path, self._parent / name))
+            self._name = next(name for name in names if _rename_unless_taken(self.path, self._parent / name))
         self._undo.pop_all()
         self.path = self._parent / self._name
         return self.path
 
     def _remove_contents(self) -> None:
         if remaining := remove_contents(self.path, LOCK):
-            _warn(self.path, remaining[0])
+            _warn_of_foreign(self.path, remaining[0])
 
 
 class ForeignFileError(Exception):
@@ -275,16 +275,16 @@ def remove_run(parent: Path, name: str, replace: Callable[[], object] = lambda: 
         OSError: it cannot be removed.
 
     """
-    folder, hidden = parent / name, _hidden(parent / name)
+    folder, hidden = parent / name, _hidden_folder_of(parent / name)
     with FolderLock(parent, name) as lock:
         if foreign := next(foreign_paths(folder, LOCK), ""):
             raise ForeignFileError(foreign)
         lock.leaves_file = not os.path.lexists(hidden)  # should this be cut short
-    if not _renamed(folder, hidden):
+    if not _rename_unless_taken(folder, hidden):
         raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(hidden))
     replace()
-    if foreign := _removed(hidden, abandoned=False):
-        _renamed(hidden, folder)
+    if foreign := _remove_hidden_folder(hidden, abandoned=False):
+        _rename_unless_taken(hidden, folder)
         raise ForeignFileError(foreign)
 
 
@@ -320,12 +320,12 @@ def _remove_abandoned(parent: Path) -> None:
     """Remove what killed processes left: folders with an unlocked lock of uictest, and listed files alone."""
     for folder in [*parent.glob(".*.partial")]:
         with suppress(OSError, FolderInUseError):
-            if foreign := _removed(folder, abandoned=True):
-                _warn(folder, foreign)
+            if foreign := _remove_hidden_folder(folder, abandoned=True):
+                _warn_of_foreign(folder, foreign)
 
 
-def _removed(folder: Path, *, abandoned: bool) -> str:
-    """Remove a hidden folder; return what it holds of somebody else. Raises OSError, FolderInUseError."""
+def _remove_hidden_folder(folder: Path, *, abandoned: bool) -> str:
+    """Remove a hidden folder; return the first foreign path in it. Raises OSError, FolderInUseError."""
     with FolderLock(folder.parent, folder.name, abandoned=abandoned) as lock:
         lock.leaves_file = True  # should this be cut short
         stay = remove_contents(folder, LOCK)
@@ -335,37 +335,37 @@ def _removed(folder: Path, *, abandoned: bool) -> str:
     return next(iter(stay), "")
 
 
-def _warn(folder: Path, name: str) -> None:
+def _warn_of_foreign(folder: Path, name: str) -> None:
     text = "uictest: %s stays: it holds %s, which uictest did not write"
     logging.getLogger(__name__).warning(text, folder, name)
 
 
-def _hidden(folder: Path) -> Path:
+def _hidden_folder_of(folder: Path) -> Path:
     return folder.with_name(f".{folder.name}.partial")
 
 
-def _names(name: str) -> Iterator[str]:
+def _candidate_names(name: str) -> Iterator[str]:
     yield name
     yield from (f"{name}-{number}" for number in itertools.count(2))
 
 
-def _reserved(parent: Path, name: str) -> str:
-    """Return the first name that no folder has, after its hidden folder was made: no other run has that."""
-    for free in _names(name):
+def _reserve_name(parent: Path, name: str) -> str:
+    """Return the first free name of a folder, reserved for this run by making its hidden folder."""
+    for free in _candidate_names(name):
         folder = parent / free
         if os.path.lexists(folder):
             continue
         try:
-            _hidden(folder).mkdir()
+            _hidden_folder_of(folder).mkdir()
         except FileExistsError:
             continue
         if not os.path.lexists(folder):
             return free
-        _hidden(folder).rmdir()  # another run was published meanwhile
+        _hidden_folder_of(folder).rmdir()  # another run was published meanwhile
     raise AssertionError  # there are always more names
 
 
-def _renamed(old: Path, new: Path) -> bool:
+def _rename_unless_taken(old: Path, new: Path) -> bool:
     """Rename a folder; return False, and replace nothing, where the new name is taken. Raises OSError."""
     if os.path.lexists(new):
         return False

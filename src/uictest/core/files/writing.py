@@ -43,7 +43,7 @@ def relative_path(path: Path, folder: Path) -> str:
 
 
 def is_file(path: Path) -> bool:
-    """Return whether there is a regular file, which no link is. Raises OSError."""
+    """Return whether a path is a regular file, not a link. Raises OSError."""
     with suppress(FileNotFoundError):
         return stat.S_ISREG(path.lstat().st_mode)
     return False
@@ -55,7 +55,7 @@ def partial_name() -> str:
 
 
 def is_partial(path: Path) -> bool:
-    """Return whether a path is that of an unfinished file. Raises OSError."""
+    """Return whether a path is an unfinished file. Raises OSError."""
     return _PARTIAL.fullmatch(path.name) is not None and not stat.S_ISDIR(path.lstat().st_mode)
 
 
@@ -79,12 +79,12 @@ def add_to_list(folder: Path, name: str, file: Any) -> None:
     Raises OSError.
     """
     is_new = not os.path.lexists(folder / name)
-    entries = _entries(folder, head_only=is_new)  # a long list is not read for every file
-    line = _line(name, _digest(file)) if entries is not None else b""
+    entries = _listed_digests(folder, head_only=is_new)  # a long list is not read for every file
+    line = _list_line(name, _sha256_of(file)) if entries is not None else b""
     if entries is None or not _LINE.fullmatch(line):
         return
     if entries.pop(name, None):
-        _rewrite(folder, entries)
+        _rewrite_list(folder, entries)
     with (folder / LIST).open("ab", buffering=0) as listing:
         listing.write(line)
 
@@ -100,9 +100,9 @@ def remove_listed(folder: Path, *patterns: str) -> None:
         OSError: something cannot be read or removed.
 
     """
-    entries = _entries(folder) or {}
+    entries = _listed_digests(folder) or {}
     known = len(entries)
-    for name, path in _contents(folder):
+    for name, path in _paths_below(folder):
         if not any(fnmatchcase(name, pattern) for pattern in patterns):
             continue
         if _is_as_written(path, entries.get(name, "")):
@@ -112,20 +112,20 @@ def remove_listed(folder: Path, *patterns: str) -> None:
             text = "uictest: %s stays: uictest did not write it, or it has changed since"
             logging.getLogger(__name__).warning(text, path)
     if len(entries) < known:
-        _rewrite(folder, entries)
+        _rewrite_list(folder, entries)
 
 
 def foreign_paths(folder: Path, *ours: str) -> Iterator[str]:
-    """Yield what a folder holds that its list does not, or that has changed since it was written.
+    """Yield the paths below a folder that its list lacks, or that have changed since they were written.
 
     Links and empty folders count, and so does a list that is missing. The list, unfinished files and `ours`
     belong to uictest. Raises OSError.
     """
-    entries = _entries(folder)
+    entries = _listed_digests(folder)
     if entries is None:
         yield LIST
-    of_uictest = {*ours, *_folders_of(entries or {}), *([] if entries is None else [LIST])}
-    for name, path in _contents(folder):
+    of_uictest = {*ours, *_folders_of_entries(entries or {}), *([] if entries is None else [LIST])}
+    for name, path in _paths_below(folder):
         known = name in of_uictest or is_partial(path)
         if not known and not _is_as_written(path, (entries or {}).get(name, "")):
             yield name
@@ -136,11 +136,11 @@ def remove_contents(folder: Path, *ours: str) -> list[str]:
 
     Returns what stays directly in the folder, without `ours`. Raises OSError.
     """
-    entries = _entries(folder)
-    for name, path in _contents(folder):
+    entries = _listed_digests(folder)
+    for name, path in _paths_below(folder):
         if is_partial(path) or _is_as_written(path, (entries or {}).get(name, "")):
             path.unlink()
-    for made in sorted(_folders_of(entries or {}), reverse=True):
+    for made in sorted(_folders_of_entries(entries or {}), reverse=True):
         with suppress(OSError):  # it holds something else, or is a link
             path_below(folder, made).rmdir()
     stay = sorted({path.name for path in folder.iterdir()}.difference(ours))
@@ -150,13 +150,13 @@ def remove_contents(folder: Path, *ours: str) -> list[str]:
     return stay if entries is None else [name for name in stay if name != LIST]
 
 
-def _rewrite(folder: Path, entries: Mapping[str, str]) -> None:
+def _rewrite_list(folder: Path, entries: Mapping[str, str]) -> None:
     temporary = folder / partial_name()
-    _write_new(temporary, _HEADING + b"".join(_line(*entry) for entry in entries.items()))
+    _write_new(temporary, _HEADING + b"".join(_list_line(*entry) for entry in entries.items()))
     temporary.replace(folder / LIST)
 
 
-def _entries(folder: Path, *, head_only: bool = False) -> dict[str, str] | None:
+def _listed_digests(folder: Path, *, head_only: bool = False) -> dict[str, str] | None:
     """Return the files of a list and their digests; None where the folder has no list of uictest."""
     with suppress(OSError):
         if is_file(folder / LIST):
@@ -167,7 +167,7 @@ def _entries(folder: Path, *, head_only: bool = False) -> dict[str, str] | None:
     return None
 
 
-def _line(name: str, digest: str) -> bytes:
+def _list_line(name: str, digest: str) -> bytes:
     return f"{digest}  ".encode() + os.fsencode(name) + b"\n"
 
 
@@ -180,19 +180,19 @@ def _is_as_written(path: Path, digest: str) -> bool:
     if not digest or not is_file(path):
         return False
     with path.open("rb") as file:
-        return _digest(file) == digest
+        return _sha256_of(file) == digest
 
 
-def _digest(file: Any) -> str:
+def _sha256_of(file: Any) -> str:
     return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _folders_of(entries: Mapping[str, str]) -> set[str]:
+def _folders_of_entries(entries: Mapping[str, str]) -> set[str]:
     """Return the folders that were made for the files of a list."""
     return {above.as_posix() for name in entries for above in PurePath(name).parents} - {"."}
 
 
-def _contents(folder: Path) -> Iterator[tuple[str, Path]]:
+def _paths_below(folder: Path) -> Iterator[tuple[str, Path]]:
     """Yield every file, link and empty folder below a folder, as the list names it and as a path.
 
     Raises OSError.

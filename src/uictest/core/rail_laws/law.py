@@ -44,7 +44,7 @@ class RailLaw(NamedTuple):
     """A law, as its module declares it.
 
     Both functions are scalar code of :mod:`uictest.core.physics`, which also runs compiled and beside lanes.
-    Behind the arguments that are named here, each takes `numbers`, the law's own in their order.
+    After the arguments that are named here, each takes `numbers`, the law's own in their order.
 
     Attributes:
         name: its key below `rail.cleaning`.

@@ -27,13 +27,13 @@ def slack(time: Array) -> float:
 
 
 def covers(time: Array, instants: Array) -> NDArray[np.bool_]:
-    """Return which instants lie between the first and the last sample, or on one of these."""
+    """Return the mask of instants from the first to the last sample."""
     reach = slack(time)
     return np.asarray((instants >= time[0] - reach) & (instants <= time[-1] + reach))
 
 
 def rows_at(time: Array, instants: Array) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Return the row of the last sample up to each instant, the first if there is none, and which are its."""
+    """Return the row of the last sample up to each instant, else 0, and the mask of instants on a sample."""
     reach = slack(time)
     rows = np.clip(np.searchsorted(time, instants + reach, side="right") - 1, 0, None)
     return rows, np.asarray(np.abs(instants - time[rows]) <= reach)
@@ -42,11 +42,11 @@ def rows_at(time: Array, instants: Array) -> tuple[NDArray[np.intp], NDArray[np.
 def at_instants(
     time: Array, samples: Array, instants: Array, *, holds: bool, gaps: NDArray[np.bool_] | None = None
 ) -> Array:
-    """Return what a channel is at some instants; NaN before its first sample and after its last.
+    """Return the values of a channel at some instants; NaN before its first sample and after its last.
 
-    `time` (or position) rises. A sample stands until the next if the channel `holds`, as a state does; else a
-    line leads to that. NaN stays NaN, and so does what lies beside it. `gaps`: intervals between neighbouring
-    samples in which the channel is unknown.
+    `time` (or position) increases. A sample stands until the next if the channel `holds`, as a state does;
+    else values are interpolated linearly. Instants at or next to NaN are NaN. `gaps`: intervals between
+    neighbouring samples in which the channel is unknown.
     """
     last, on_sample = rows_at(time, instants)
     known = covers(time, instants)
@@ -57,7 +57,7 @@ def at_instants(
 
 
 def common_instants(first: Array, second: Array) -> Array:
-    """Return where two series are compared, whichever is named first: as far as both reach.
+    """Return the instants at which two series are compared, whichever is named first: as far as both reach.
 
     These are the samples of the coarser one: read where only the finer one has samples, the other would lack
     what it did not sample. Of two that are equally coarse they are the samples of both.

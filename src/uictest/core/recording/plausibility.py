@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Implausible:
-    """Why samples are implausible in their unit, and the unit that is likely; empty: none fits."""
+    """The reason for which samples are implausible in their unit, and the likely unit; empty: none fits."""
 
     reason: str
     likely_unit: str
@@ -48,7 +48,7 @@ LARGEST: Final = MappingProxyType(
 """SI unit -> largest magnitude of a sample."""
 SHORTEST_INTERVAL: Final = Limit(1e-5, "0.01 ms")
 LONGEST_INTERVAL: Final = Limit(5.0, "5 s")
-"""Between two samples; chosen. A raster coarser than a second shows no slide."""
+"""Between two samples; chosen. An interval longer than a second shows no slide."""
 _USUAL_INTERVAL: Final = 0.01
 """s: of several units that are plausible, the one whose interval comes closest is the likeliest; chosen."""
 LONGEST_RECORD: Final = Limit(86_400.0, "one day")
@@ -57,7 +57,7 @@ FEW: Final = 0.1
 
 
 def beyond(samples: Array, si: str) -> NDArray[np.bool_]:
-    """Return which finite samples, in SI, are implausibly large."""
+    """Return the mask of finite samples, in SI, that are implausibly large."""
     limit = LARGEST.get(si)
     if limit is None:
         return np.zeros(len(samples), dtype=np.bool_)
@@ -67,7 +67,7 @@ def beyond(samples: Array, si: str) -> NDArray[np.bool_]:
 def implausible_unit(
     samples: Array, si: str, unit: str, sizes: Mapping[str, float], faulty: float = FEW
 ) -> Implausible | None:
-    """Return why samples are implausible in a unit; None if they are plausible.
+    """Return the reason for which samples are implausible in a unit; None if they are plausible.
 
     Args:
         samples: as SI, converted from `unit`.
@@ -90,14 +90,16 @@ def implausible_unit(
 def implausible_time(
     time: Array, unit: str, sizes: Mapping[str, float], longest: float = LONGEST_RECORD.value
 ) -> Implausible | None:
-    """Return why times, in s, are implausible; None if they are plausible or do not rise.
+    """Return the reason for which times, s, are implausible; None if they are plausible or do not rise.
 
     `unit` is their stated unit, a key of `sizes` (unit -> s); they may span `longest`, s.
     """
     rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
-    if not rising or _plausible(time, 1.0, longest):
+    if not rising or _is_plausible_time(time, 1.0, longest):
         return None
-    fitting = [other for other, size in sizes.items() if _plausible(time, size / sizes[unit], longest)]
+    fitting = [
+        other for other, size in sizes.items() if _is_plausible_time(time, size / sizes[unit], longest)
+    ]
     first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], usual_interval(time) / sizes[unit]
     likely = min(fitting, key=lambda other: abs(math.log(step * sizes[other] / _USUAL_INTERVAL)), default="")
     return Implausible(
@@ -108,7 +110,7 @@ def implausible_time(
     )
 
 
-def _plausible(time: Array, factor: float, longest: float) -> bool:
+def _is_plausible_time(time: Array, factor: float, longest: float) -> bool:
     interval, duration = usual_interval(time) * factor, float(time[-1] - time[0]) * factor
     return SHORTEST_INTERVAL.value <= interval <= LONGEST_INTERVAL.value and duration <= longest
 

@@ -103,12 +103,14 @@ class Recording:
             channels: names, in which `*` stands for any characters [default: speeds, slides, cylinder
                 pressures and clamping forces].
 
-        Raises KeyError for a name that is no channel, MissingExtraError without the extra `plot`.
+        Raises KeyError for an unknown channel, MissingExtraError without the extra `plot`.
         """
         make_subplots = required_module("plotly.subplots", "plot").make_subplots
 
         time, *others = self.channels
-        names = self._shown_by_default(others) if channels is None else list(_matching(others, channels))
+        names = (
+            self._shown_by_default(others) if channels is None else list(_channels_matching(others, channels))
+        )
         panels = list(dict.fromkeys(self.units[name] for name in names))
         figure = make_subplots(rows=max(len(panels), 1), shared_xaxes=True, vertical_spacing=0.04)
         for name in names:
@@ -126,7 +128,7 @@ class Recording:
         return [name for name in default if np.isfinite(self[name]).any()] or list(names)
 
 
-def _matching(names: Sequence[str], patterns: Iterable[str]) -> Iterator[str]:
+def _channels_matching(names: Sequence[str], patterns: Iterable[str]) -> Iterator[str]:
     """Yield the channels of patterns, each once. Raises KeyError."""
     seen: set[str] = set()
     for pattern in patterns:
@@ -233,15 +235,15 @@ def recording_of(contents: Contents, metadata: Mapping[str, str]) -> Recording:
     """Return the contents of a file of one group with a time axis in seconds as a recording.
 
     `metadata` is added to that of the file, and names of states are their numbers. Raises UnreadableError for
-    several rasters, no time, other texts, or channels without a unit.
+    several time axes, no time, other texts, or channels without a unit.
     """
     if len(contents.groups) != 1:
         raise UnreadableError(f"{len(contents.groups)} rasters; a recording has one")
     group = contents.groups[0]
-    channels = {name: _numbers(group, name) for name in group.channels if name != TIME}
+    channels = {name: _numeric_samples(group, name) for name in group.channels if name != TIME}
     try:
         return Recording(
-            {TIME: _time(group), **channels},
+            {TIME: _time_axis(group), **channels},
             {TIME: "s", **{name: group.units.get(name, "") for name in channels}},
             dict(chain(contents.metadata.items(), metadata.items())),
         )
@@ -270,7 +272,7 @@ def numbers_of(
     return np.where(np.isnan(numbers), of_states[indices], numbers), in_order or sorted(strange)
 
 
-def _numbers(group: Group, name: str) -> NDArray[Any]:
+def _numeric_samples(group: Group, name: str) -> NDArray[Any]:
     """Return the samples of a channel, states as their numbers. Raises UnreadableError for other texts."""
     samples, strange = numbers_of(group, name, states_of(name))
     if strange:
@@ -281,7 +283,7 @@ def _numbers(group: Group, name: str) -> NDArray[Any]:
     return samples
 
 
-def _time(group: Group) -> np.ndarray:
+def _time_axis(group: Group) -> np.ndarray:
     if group.time is not None:
         return group.time
     samples = group.channels.get(TIME, np.zeros(0))

@@ -87,20 +87,20 @@ def share_of(values: Sequence[float], confidence: float) -> Estimate:
 
 def largest_of(values: Sequence[float], confidence: float) -> Estimate:
     """Return the largest value, and the share of all such stops that stays below it."""
-    return _extreme(max(values), values, confidence, "largest")
+    return _extreme_estimate(max(values), values, confidence, "largest")
 
 
 def smallest_of(values: Sequence[float], confidence: float) -> Estimate:
     """Return the smallest value, and the share of all such stops that stays above it."""
-    return _extreme(min(values), values, confidence, "smallest")
+    return _extreme_estimate(min(values), values, confidence, "smallest")
 
 
-def _extreme(value: float, values: Sequence[float], confidence: float, method: Method) -> Estimate:
+def _extreme_estimate(value: float, values: Sequence[float], confidence: float, method: Method) -> Estimate:
     whole = _estimate(value, math.nan, math.nan, confidence, method, values)
-    return replace(whole, covered=_covered(len(values), confidence))
+    return replace(whole, covered=_covered_share(len(values), confidence))
 
 
-def _covered(stops: int, confidence: float) -> float:
+def _covered_share(stops: int, confidence: float) -> float:
     # All n draws stay below the quantile of order q with probability q^n; with n = 50 q is 94.2 % for 95 %.
     return float((1.0 - confidence) ** (1.0 / stops))
 
@@ -113,7 +113,7 @@ def _estimate(
 
 @dataclass(frozen=True, slots=True)
 class SeriesValue:
-    """A measure of a series: an estimate, or why there is none."""
+    """A measure of a series: an estimate, or the reason for which there is none."""
 
     estimate: Estimate | None = None
     unavailable_reason: str = ""
@@ -146,7 +146,7 @@ def over_dry(estimate: Estimate, dry: Sequence[float]) -> Estimate:
         return replace(ratio, low=low, high=high)
     if not mean.low > 0.0:
         return replace(ratio, covered=math.nan)
-    covered = _covered(estimate.stops, 0.5 + 0.5 * estimate.confidence)
+    covered = _covered_share(estimate.stops, 0.5 + 0.5 * estimate.confidence)
     low, high = sorted((estimate.value / mean.low, estimate.value / mean.high))
     return replace(ratio, covered=covered, low=low, high=high)
 
@@ -245,11 +245,11 @@ class SeriesMeasure:
     def of_speed(self, stops: SpeedStops, confidence: float) -> SeriesValue:
         """Return the value over the wet stops from one speed."""
         if self.of_ratio is not None:
-            return self._over_dry(stops, confidence, self.of_ratio)
+            return self._ratio_to_dry(stops, confidence, self.of_ratio)
         return self._of_stops(stops.wet, confidence)
 
     def groups(self, speeds: Sequence[SpeedStops]) -> list[list[SpeedStops]]:
-        """Return which stops make one value: those from one speed, or on one rail if it is pooled."""
+        """Return the groups of stops that make one value: from one speed, or on one rail if it is pooled."""
         if not self.pooled:
             return [[stops] for stops in speeds]
         rails = dict.fromkeys(stops.rail for stops in speeds)
@@ -258,20 +258,20 @@ class SeriesMeasure:
     def of_series(self, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
         """Return the value of a series: that of its worst speed, or that of its worst rail."""
         if not self.pooled:
-            return self._worst([self.of_speed(stops, confidence) for stops in speeds])
+            return self._worst_value([self.of_speed(stops, confidence) for stops in speeds])
         wet = ([stop for stops in group for stop in stops.wet] for group in self.groups(speeds))
-        return self._worst([self._of_stops(stops, confidence) for stops in wet])
+        return self._worst_value([self._of_stops(stops, confidence) for stops in wet])
 
     def percent_of_dry(self, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
         """Return the value of a series in % of the dry stops. Raises ValueError without a dry value."""
         if not self.has_dry_value:
             raise ValueError(f"{self.name!r} has no value of the dry stops")
-        return self._worst([self._over_dry(stops, confidence, _in_percent) for stops in speeds])
+        return self._worst_value([self._ratio_to_dry(stops, confidence, _in_percent) for stops in speeds])
 
     def _of_stops(self, stops: Sequence[CountedStop], confidence: float) -> SeriesValue:
         return estimated([self.figure(stop) for stop in stops], self.statistic, confidence)
 
-    def _over_dry(
+    def _ratio_to_dry(
         self, stops: SpeedStops, confidence: float, of_ratio: Callable[[Estimate], Estimate]
     ) -> SeriesValue:
         dry = [self.figure(stop) for stop in stops.dry]
@@ -287,7 +287,7 @@ class SeriesMeasure:
             return SeriesValue(value)
         return SeriesValue(unavailable_reason="the wet stops have no such number above zero")
 
-    def _worst(self, values: Sequence[SeriesValue]) -> SeriesValue:
+    def _worst_value(self, values: Sequence[SeriesValue]) -> SeriesValue:
         """Return the worst of some values; one that is not known could be worse than all others."""
         unknown = next((value for value in values if value.estimate is None), None)
         if unknown is not None or not values:

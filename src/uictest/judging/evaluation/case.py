@@ -60,7 +60,7 @@ def evaluate(
         duration: wall clock the simulation took, s.
         detail: as for :func:`judge`.
         coverage: as for :func:`judge`.
-        response_times: of the controller in a stop that was paced by the clock.
+        response_times: response times of the controller in a stop that was paced by the clock.
         of_record: whether the record of a real stop agrees with the case.
 
     """
@@ -71,11 +71,11 @@ def evaluate(
     of_stop = stop_column_values(measures, {**_column_definition(case.scenario.criteria), **corrections})
     of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
     if case.scenario.drag is not None:
-        of_stop = _without(_COLUMNS_OF_BRAKING, of_stop)
+        of_stop = _without_columns(_COLUMNS_OF_BRAKING, of_stop)
     if coverage is not None:
-        of_stop = _without(_unknown_columns(coverage, of_wheelsets=False), of_stop)
+        of_stop = _without_columns(_unknown_columns(coverage, of_wheelsets=False), of_stop)
         unknown = _unknown_columns(coverage, of_wheelsets=True)
-        of_wheelsets = [_without(unknown, columns) for columns in of_wheelsets]
+        of_wheelsets = [_without_columns(unknown, columns) for columns in of_wheelsets]
     return CaseResult(
         id=case.id,
         scenario=case.path.as_posix(),
@@ -171,10 +171,10 @@ def _column_definition(profiles: tuple[scenario.Criteria, ...]) -> dict[str, flo
 
     A column then agrees with the verdict of that criterion.
     """
-    return {name: _stated(profiles, name, default) for name, default in _DEFAULTS.items()}
+    return {name: _stated_parameter(profiles, name, default) for name, default in _DEFAULTS.items()}
 
 
-def _stated(profiles: tuple[scenario.Criteria, ...], name: str, default: float) -> float:
+def _stated_parameter(profiles: tuple[scenario.Criteria, ...], name: str, default: float) -> float:
     for profile in profiles:
         for criterion in profile.criteria:
             parameter = getattr(criterion.definition, name)
@@ -197,7 +197,7 @@ _COLUMNS_OF_BRAKING: Final = frozenset(
 """Columns that say nothing of a stop in which traction held a speed."""
 
 
-def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str, float]:
+def _without_columns(unknown: Container[str], columns: Mapping[str, float]) -> dict[str, float]:
     return {name: math.nan if name in unknown else value for name, value in columns.items()}
 
 
@@ -220,7 +220,7 @@ def _why_not_finite(measures: StopMeasures, names: list[str]) -> str:
 
 
 def asks_for_rail(case: scenario.Case, result: CaseResult) -> bool:
-    """Return whether the rail is to be looked at: it decides, or the stop with its WSP is no test.
+    """Return whether the rail is to be looked at: it decides, or the stop with its WSP is not a test.
 
     On a dry rail the WSP has no part in that.
     """
@@ -238,7 +238,7 @@ def with_rail(
     """Return a result with the validity of the rail, which decides where the scenario says so.
 
     Args:
-        result: of the stop with the WSP active.
+        result: result of the stop with the WSP active.
         case: with the WSP active: its criteria of validity judge both stops.
         measures: record of the same stop, with the WSP bypassed, SI.
         wheelset_measures: one record per wheelset of that stop.

@@ -140,12 +140,12 @@ class ObservedStop:
 
     Args:
         resolved: its scenario.
-        measures: of the stop.
+        measures: measures of the stop.
         wheelsets: measures of its wheelsets.
         coverage: what the record of a real stop lacks; None for a simulation.
         conditions: what criteria may require of it.
         cut_off: why it was not observed to its end; empty where it was.
-        no_stopping: why it is no stop to standstill under the brake alone; empty where it is.
+        no_stopping: why it is not a stop to standstill under the brake alone; empty where it is.
 
     """
 
@@ -166,14 +166,14 @@ class ObservedStop:
             object.__setattr__(self, name, value)
 
     def definition(self, criterion: scenario.Criterion, stated: Mapping[str, float]) -> Mapping[str, float]:
-        """Return what the measure of a criterion is read by: definitions and what it is corrected for."""
+        """Return the definitions and corrections by which the measure of a criterion is read."""
         if not MEASURES[criterion.measure].corrected:
             return stated
         conditions = scenario.corrections(self.resolved, criterion)
         return {**stated, **{name: float(value) for name, value in conditions.items()}}
 
     def missing(self, measure: str, count: int, *, settled: bool) -> tuple[MissingData | None, ...]:
-        """Return what each of the `count` values of a measure lacks; empty where none lacks anything.
+        """Return the missing data of each of the `count` values of a measure; empty where none lacks any.
 
         To a value that is `settled` the end of the observation does not matter.
         """
@@ -252,7 +252,7 @@ def decide(
         starts_late = stop.coverage is not None and stop.coverage.no_initial_speed
         final = observed.whatever_follows and not starts_late
         if stop.no_stopping and criterion.layer == "validity":
-            # Nothing shows that the stop is a test: what would have shown it may lie behind its end.
+            # Nothing shows that the stop is a test: what would have shown it may lie after its end.
             missing = missing or (MissingData(stop.no_stopping),)
         gaps = [] if final else [gap for gap in missing if gap]
         return _without_value(measure, observed.unavailable_reason, gaps)
@@ -301,20 +301,22 @@ class _PartlyKnown(NamedTuple):
         """Return whether a value keeps the bounds whatever the missing data are; None: it depends on them."""
         if gap is None:
             return self.bounds.hold(value)
-        known = _known(value, gap)
-        lowest = value if known and self.course == "grows" else -math.inf
-        highest = value if known and self.course == "falls" else math.inf
+        is_known = _is_known(value, gap)
+        lowest = value if is_known and self.course == "grows" else -math.inf
+        highest = value if is_known and self.course == "falls" else math.inf
         return self.bounds.hold_throughout(lowest, highest)
 
     def _decided(self, status: Status, value: float, count: str) -> Decision:
         texts = [
-            value_text(value, "1") if _known(value, gap) else "-"
+            value_text(value, "1") if _is_known(value, gap) else "-"
             for value, gap in zip(self.values, self.missing, strict=True)
         ]
-        reasons = _listed([gap for gap in self.missing if gap])
+        reasons = _listed_reasons([gap for gap in self.missing if gap])
         if set(texts) == {"-"}:
             return _decided(status, value, self.bounds, reasons)
-        so_far = f"{_looking(with_unit(', '.join(texts), self.bounds.unit), self.where)} so far; {reasons}"
+        so_far = (
+            f"{_with_location(with_unit(', '.join(texts), self.bounds.unit), self.where)} so far; {reasons}"
+        )
         reason = so_far if len(self.values) == 1 else f"{count}: {so_far}"
         return _decided(status, value, self.bounds, reason)
 
@@ -336,25 +338,25 @@ def _without_value(measure: Measure, why: str, gaps: Sequence[MissingData]) -> D
         lacks_data = recorded is not None and recorded.computed and recorded.when == "never"
         return Decision("not_applicable", None, why, lacks_data=lacks_data)
     bounded = all(gap.bounded for gap in gaps)
-    return Decision("inconclusive", None, "; ".join([*([why] if bounded else []), _listed(gaps)]))
+    return Decision("inconclusive", None, "; ".join([*([why] if bounded else []), _listed_reasons(gaps)]))
 
 
-def _known(value: float, gap: MissingData | None) -> bool:
+def _is_known(value: float, gap: MissingData | None) -> bool:
     return gap is None or (gap.bounded and not math.isnan(value))
 
 
-def _listed(missing: Sequence[MissingData]) -> str:
+def _listed_reasons(missing: Sequence[MissingData]) -> str:
     return "; ".join(dict.fromkeys(gap.reason for gap in missing))
 
 
 def _why_decided(values: Sequence[float], value: float, bounds: Bounds, needed: int, where: str) -> str:
-    """Return why known values keep or miss their bounds.
+    """Return the reason for which known values keep or miss their bounds.
 
     `value` is the one that decides, `where` says at which train speeds its measure looks.
     """
     if len(values) > 1:
         holding = sum(map(bounds.hold, values))
-        listed = _looking(values_text(values, bounds.unit), where)
+        listed = _with_location(values_text(values, bounds.unit), where)
         return f"{holding} of {len(values)} wheelsets {bounds.demand} ({needed} needed): {listed}"
     holds, unit = bounds.hold(value), bounds.unit
     if holds and not where:
@@ -362,10 +364,10 @@ def _why_decided(values: Sequence[float], value: float, bounds: Bounds, needed: 
     if not math.isfinite(value):
         return f"{value} never keeps {bounds.text}"
     verb, margin = ("keeps" if holds else "misses"), value_text(abs(bounds.margin(value)), unit)
-    return f"{_looking(value_text(value, unit), where)} {verb} {bounds.text} by {margin}"
+    return f"{_with_location(value_text(value, unit), where)} {verb} {bounds.text} by {margin}"
 
 
-def _looking(text: str, where: str) -> str:
+def _with_location(text: str, where: str) -> str:
     return f"{text} ({where})" if where else text
 
 
@@ -375,7 +377,7 @@ Decide = Callable[[float], Decision]
 def sensitivity(
     name: str, unit: str, lower: float, upper: float, step: float | None, decide: Decide
 ) -> Sensitivity:
-    """Return how the verdict changes while the definition `name` runs from `lower` to `upper` (SI).
+    """Return the intervals of the verdict while the definition `name` runs from `lower` to `upper` (SI).
 
     `decide` gives the decision at a value of the definition. With a `step` the definition takes multiples of
     it only, and all of them in the range are decided. Without one it is continuous, what it defines is

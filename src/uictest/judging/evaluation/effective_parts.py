@@ -169,16 +169,19 @@ class _Same:
 def effective_parts(scenario: Scenario) -> dict[str, EffectivePart]:
     """Return every part of a simulated stop by its role: the kind, and `criteria.0`, ... for profiles."""
     couplers = None if scenario.coupler is None else Coupler()  # a train has some, stated or not
-    stop = [*_own(scenario, "", {"coupler": couplers}), *_own(scenario.simulation, "simulation.", {})]
+    stop = [
+        *_scenario_parameters(scenario, "", {"coupler": couplers}),
+        *_scenario_parameters(scenario.simulation, "simulation.", {}),
+    ]
     parts = {"scenario": EffectivePart("scenario", "", "", None, tuple(stop))}
     for name in ("brake", "rail", "rig"):
-        own = tuple(_section(scenario, name))
+        own = tuple(_section_parameters(scenario, name))
         parts[f"scenario.{name}"] = EffectivePart(f"scenario.{name}", name, "", None, own)
     overrides = tuple(name for name in _RAIL_OVERRIDES if getattr(scenario.rail, name) is not None)
     for kind, key in _PARTS.items():
         part = attrgetter(key)(scenario)
-        parts[kind] = _effective(_Same(part), kind, key, overrides if kind == "rail" else ())
-    return parts | _profiles(scenario.judged_by)
+        parts[kind] = _effective_part(_Same(part), kind, key, overrides if kind == "rail" else ())
+    return parts | _profile_parts(scenario.judged_by)
 
 
 def recorded_parts(scenario: Scenario) -> dict[str, EffectivePart]:
@@ -186,18 +189,18 @@ def recorded_parts(scenario: Scenario) -> dict[str, EffectivePart]:
     condition = scenario.rail.condition
     stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
     for name in ("brake", "rail", "rig"):
-        stated += [row for row in _section(scenario, name) if row.key.startswith(_CONDITIONS)]
-    stated += _section(scenario, "record")
+        stated += [row for row in _section_parameters(scenario, name) if row.key.startswith(_CONDITIONS)]
+    stated += _section_parameters(scenario, "record")
     return {
         "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
-        "measures": _effective(_Same(scenario.measures), "measures", "measures", ()),
-        **_profiles(scenario.criteria),
+        "measures": _effective_part(_Same(scenario.measures), "measures", "measures", ()),
+        **_profile_parts(scenario.criteria),
     }
 
 
-def _profiles(profiles: Iterable[Part]) -> dict[str, EffectivePart]:
+def _profile_parts(profiles: Iterable[Part]) -> dict[str, EffectivePart]:
     return {
-        f"criteria.{index}": _effective(_Same(profile), "criteria", "", ())
+        f"criteria.{index}": _effective_part(_Same(profile), "criteria", "", ())
         for index, profile in enumerate(profiles)
     }
 
@@ -207,7 +210,7 @@ _MOST_KEPT: Final = 1000
 
 
 @lru_cache(_MOST_KEPT)
-def _effective(same: _Same, kind: str, key: str, overridden: Key) -> EffectivePart:
+def _effective_part(same: _Same, kind: str, key: str, overridden: Key) -> EffectivePart:
     """Return one part that stands at `key`, without the keys that the scenario overrides."""
     part, root = same.part, same.part.original
     values, original = (
@@ -224,21 +227,21 @@ def _effective(same: _Same, kind: str, key: str, overridden: Key) -> EffectivePa
         # A setting has no source: it is the user's where the original has another.
         other = original.get(elements)
         setting_mark = "" if other is not None and other.value == row.value else "user"
-        parameters.append(_as_declared(part, row, _parameter(above, row, setting_mark, library)))
-    removed = tuple(f"{above}{dotted(place)}" for place in _removed(original, values))
+        parameters.append(_as_declared(part, row, _compared_parameter(above, row, setting_mark, library)))
+    removed = tuple(f"{above}{dotted(place)}" for place in _removed_keys(original, values))
     used = {parameter.source for parameter in parameters if parameter.source}
     sources = {name: source.text for name, source in part.sources.items() if name in used}
     return EffectivePart(kind, key, part.label, part.based_on, tuple(parameters), removed, sources)
 
 
-def _removed(original: Mapping[Key, object], values: Mapping[Key, object]) -> list[Key]:
+def _removed_keys(original: Mapping[Key, object], values: Mapping[Key, object]) -> list[Key]:
     """Return the keys of its original that a part lacks; of a section that it lacks, the section alone."""
-    kept = {place[:depth] for place in values for depth in range(len(place) + 1)}
+    prefixes = {elements[:depth] for elements in values for depth in range(len(elements) + 1)}
     return list(
         dict.fromkeys(
-            next(place[:depth] for depth in range(len(place) + 1) if place[:depth] not in kept)
-            for place in original
-            if place not in values
+            next(elements[:depth] for depth in range(len(elements) + 1) if elements[:depth] not in prefixes)
+            for elements in original
+            if elements not in values
         )
     )
 
@@ -255,16 +258,16 @@ def _as_declared(part: Part, row: DescribedValue, parameter: Parameter) -> Param
     return replace(parameter, unit=declared.unit, mark="default" if is_default else parameter.mark)
 
 
-def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
+def _section_parameters(scenario: Scenario, name: str) -> Iterator[Parameter]:
     # What the rail leaves out is the condition's.
     of_condition = _RAIL_OVERRIDES if name == "rail" else ()
     defaults = {key: getattr(scenario.rail.condition, key) for key in of_condition}
-    for parameter in _own(getattr(scenario, name), f"{name}.", defaults):
+    for parameter in _scenario_parameters(getattr(scenario, name), f"{name}.", defaults):
         if scenario.sanders or not parameter.key.startswith(_OF_SAND):  # without sanders it says nothing
             yield parameter
 
 
-def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
+def _scenario_parameters(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
     """Yield the parameters that stand in the scenario file; optional ones are compared with their default."""
     values, optional = dict[str, object](), dict[str, object]()
     for name, declared in type(model).model_fields.items():
@@ -277,18 +280,22 @@ def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[P
     for row in described_values(values, {}):
         name = str(row.elements[0])
         setting = "user" if name in model.model_fields_set else "default"
-        yield _parameter(above, row, setting, library if name in optional else None)
+        yield _compared_parameter(above, row, setting, library if name in optional else None)
 
 
-def _parameter(above: str, row: DescribedValue, setting_mark: str, library: _Rows | None) -> Parameter:
+def _compared_parameter(
+    above: str, row: DescribedValue, setting_mark: str, library: _Rows | None
+) -> Parameter:
     """Return a parameter compared with the library part; `library` is None without such a part."""
-    other = None if library is None else library.get(row.elements)
-    own = (f"{above}{row.key}", row.value, row.unit, row.written, row.mark or setting_mark, row.source)
-    if library is None or (other is not None and other.value == row.value):
-        return Parameter(*own)
-    if other is None:
-        return Parameter(*own, differs=True)
-    return Parameter(*own, differs=True, library_value=other.value, library_written=other.written)
+    library_row = None if library is None else library.get(row.elements)
+    fields = (f"{above}{row.key}", row.value, row.unit, row.written, row.mark or setting_mark, row.source)
+    if library is None or (library_row is not None and library_row.value == row.value):
+        return Parameter(*fields)
+    if library_row is None:
+        return Parameter(*fields, differs=True)
+    return Parameter(
+        *fields, differs=True, library_value=library_row.value, library_written=library_row.written
+    )
 
 
 _KINDS: Final = get_args(Kind)
@@ -296,15 +303,15 @@ _KINDS: Final = get_args(Kind)
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """A controller that is no part of this package.
+    """A controller that is not a part of this package.
 
     Args:
-        name: of its part: as its file calls it, else its class, its file or its address.
+        name: name of its part, as its file calls it, else its class, its file or its address.
         kind: python, library, fmu, connect or registered.
         source: its file as the scenario writes it, its address, or its registered name.
         version: as its scenario, its file or its package states it, else as it said itself; empty where none
             of them does.
-        sha256: of its file; empty where there is none.
+        sha256: SHA-256 of its file; empty where there is none.
         told_version: what it said of itself where that is not `version`; empty where both agree.
 
     """

@@ -22,7 +22,7 @@ class Turn:
 
     Args:
         key: where it stands in the scenario.
-        side: of its nominal value on which the verdict turns.
+        side: side of its nominal value on which the verdict turns.
         criterion: id of the criterion that turns.
         to: its status there.
         value: beyond which it turns under most seeds, as a scenario has it; empty where there is no such
@@ -51,7 +51,7 @@ class CalibratedDraws:
 
     Args:
         counted: draws that count and under which the calibrating stops come to what they should.
-        share: of these in which the verdict stands; None without any.
+        share: share of these in which the verdict stands; None without any.
 
     """
 
@@ -69,7 +69,7 @@ class VerdictFirmness:
         status: see :data:`FirmnessStatus`.
         counted: draws of all numbers together that count: the stop could be run, and was a valid test.
         turned: those of them in which the verdict is another.
-        share: of counted draws in which it stands; None without any.
+        share: share of counted draws in which it stands; None without any.
         share_at_least: bound of that share with 95 % confidence where no draw turned it: 0.05^(1/counted), as
             if the draws were independent; else None.
         lowest_block: lowest share in one of the blocks of draws.
@@ -103,7 +103,7 @@ class NumberEffect:
         value: nominal, as written.
         lowest: end of its range, as written.
         highest: the other end.
-        mark: of the value: stated, published, identified, chosen, or user.
+        mark: mark of the value: stated, published, identified, chosen, or user.
         reason: why its range and its prior are what they are.
         margins: criterion -> its margin at the lowest and at the highest value, as a share of the limit:
             medians over some seeds; None where a stop has none.
@@ -139,7 +139,7 @@ class Firmness(VerdictFirmness):
         draws: number of draws of all numbers together.
         infeasible: draws whose values do not fit together.
         not_run: keys of the numbers at an end of whose range, all others being nominal, no stop could be run.
-        outcomes: of all draws: outcome -> how many; `error` counts the infeasible ones.
+        outcomes: outcomes of all draws: outcome -> number of draws; `error` counts the infeasible ones.
         seeds: under which the nominal stop was run.
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.

@@ -125,7 +125,7 @@ def to_json_form(adapter: TypeAdapter[Any], value: object) -> Any:
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
 
 
-def _columns(content: object, known: Collection[str]) -> dict[str, float]:
+def _numbers_by_column(content: object, known: Collection[str]) -> dict[str, float]:
     """Return the numbers of a document in these columns; null as NaN."""
     if not isinstance(content, Mapping) or set(content) != set(known):
         raise ValueError(f"Input should have the columns {', '.join(known)}")
@@ -135,15 +135,17 @@ def _columns(content: object, known: Collection[str]) -> dict[str, float]:
 
 
 def _is_number(value: object) -> bool:
-    # JSON writes whole numbers of any length; one beyond the largest float is no measure.
+    # JSON writes whole numbers of any length; one beyond the largest float is not a measure.
     return type(value) is float or (type(value) is int and abs(value) <= sys.float_info.max)
 
 
 _finite = PlainSerializer(json_form)
-CaseMeasures = Annotated[Mapping[str, float], PlainValidator(partial(_columns, known=STOP_COLUMNS)), _finite]
+CaseMeasures = Annotated[
+    Mapping[str, float], PlainValidator(partial(_numbers_by_column, known=STOP_COLUMNS)), _finite
+]
 """What a result reports of a stop: a key of :data:`.STOP_COLUMNS` -> number, NaN: not reached."""
 
 CaseWheelsetMeasures = Annotated[
-    Mapping[str, float], PlainValidator(partial(_columns, known=WHEELSET_COLUMNS)), _finite
+    Mapping[str, float], PlainValidator(partial(_numbers_by_column, known=WHEELSET_COLUMNS)), _finite
 ]
 """What it reports of one wheelset: a key of :data:`.WHEELSET_COLUMNS` -> number, NaN: not reached."""

@@ -86,7 +86,7 @@ def judge(
     verdicts = []
     for profile in resolved.judged_by if coverage is None else resolved.criteria:
         for criterion in profile.criteria:
-            verdict = _judge(criterion, profile, stop, detail=detail)
+            verdict = _judge_criterion(criterion, profile, stop, detail=detail)
             if verdict.layer == "rig" and verdict.status == "fail":
                 why = why_rig_fails(criterion, resolved, measures, list(wheelset_measures))
                 verdict = replace(verdict, reason=why or verdict.reason)
@@ -96,7 +96,7 @@ def judge(
     return verdicts
 
 
-def _judge(
+def _judge_criterion(
     criterion: scenario.Criterion, profile: scenario.Criteria, stop: ObservedStop, *, detail: Detail
 ) -> Verdict:
     bounds = bounds_of(criterion)
@@ -105,10 +105,10 @@ def _judge(
         return verdict_of(criterion, bounds, decided)
 
     def decider_of(read: scenario.Criterion, bounds: Bounds) -> Decide:
-        known = None if read is criterion else undecided(read, profile, stop)
+        undecided_reading = None if read is criterion else undecided(read, profile, stop)
 
         def decide_with(definition: Mapping[str, float], *, explained: bool) -> Decision:
-            return known or decide(read, bounds, definition, stop, explained=explained)
+            return undecided_reading or decide(read, bounds, definition, stop, explained=explained)
 
         return decide_with
 
@@ -127,7 +127,7 @@ def verdict_by(
         verdict = replace(verdict, sensitivity=tuple(_sensitivities(criterion, stated, decide_with)))
     if detail == "status" or not criterion.readings:
         return verdict
-    readings = tuple(_readings(criterion, bounds, verdict, decider_of, detail))
+    readings = tuple(_verdicts_of_readings(criterion, bounds, verdict, decider_of, detail))
     if not explains:
         return replace(verdict, readings=readings)
     # The readings are like the range of a definition: the verdict turns where they do not all agree.
@@ -136,10 +136,10 @@ def verdict_by(
     return replace(verdict, readings=readings, sensitivity=(*verdict.sensitivity, turns))
 
 
-def _readings(
+def _verdicts_of_readings(
     criterion: scenario.Criterion, bounds: Bounds, own: Verdict, decider_of: DeciderOf, detail: Detail
 ) -> Iterator[ReadVerdict]:
-    """Yield what each reading says: that of the criterion itself, which decides, then the others."""
+    """Yield the verdict by each reading: that of the criterion itself, which decides, then the others."""
     yield _read_verdict(criterion.reading, replace(own, sensitivity=()), decides=True)
     for reading in criterion.readings:
         read = criterion.read_as(reading)
@@ -153,7 +153,7 @@ def _read_verdict(reading: str, verdict: Verdict, *, decides: bool) -> ReadVerdi
 
 
 def by_reading(verdict: Verdict, reading: ReadVerdict) -> Verdict:
-    """Return what a criterion says by one of its readings, with an id such as `slide read as depth`."""
+    """Return the verdict on a criterion by one of its readings, with an id such as `slide read as depth`."""
     read = {name: getattr(reading, name) for name in _READ}
     return replace(verdict, id=f"{verdict.id} read as {reading.id}", readings=(), over_stops=None, **read)
 
@@ -162,7 +162,7 @@ def with_definitions(
     verdict: Verdict, criterion: scenario.Criterion, profile: scenario.Criteria, resolved: scenario.Scenario
 ) -> Verdict:
     """Return a verdict with the definitions that it depends on."""
-    texts, numbers = _definitions(criterion, profile, resolved)
+    texts, numbers = _definition_texts_and_numbers(criterion, profile, resolved)
     return replace(
         verdict,
         definition=texts,
@@ -177,7 +177,7 @@ def _defined_readings(
     profile: scenario.Criteria,
     resolved: scenario.Scenario,
 ) -> Iterator[ReadVerdict]:
-    """Yield what each reading says with its source and, but for the deciding one, its definitions."""
+    """Yield the verdict by each reading with its source and, but for the deciding one, its definitions."""
     others = {each.id: each for each in criterion.readings}
     for read in readings:
         other = others.get(read.id)
@@ -274,10 +274,10 @@ def definition_texts(
     Definitions of the criterion come with their range. Those of the scenario's `measures`, which turned
     samples into measures while the stop was observed, and what a measure is corrected for have none.
     """
-    return _definitions(criterion, profile, resolved)[0]
+    return _definition_texts_and_numbers(criterion, profile, resolved)[0]
 
 
-def _definitions(
+def _definition_texts_and_numbers(
     criterion: scenario.Criterion, profile: scenario.Criteria, resolved: scenario.Scenario
 ) -> tuple[dict[str, str], tuple[AppliedDefinition, ...]]:
     """Return the definitions of a verdict as text, and under the same names those that are numbers."""
@@ -288,14 +288,14 @@ def _definitions(
     if aggregation := criterion.aggregation:
         texts["wheelsets"] = aggregation
     if criterion.readings:
-        own = profile.sources.get(criterion.reading_source)
-        texts["reading"] = f"{criterion.reading} ({f'{own.mark}: {own.text}' if own else 'user'})"
+        source = profile.sources.get(criterion.reading_source)
+        texts["reading"] = f"{criterion.reading} ({f'{source.mark}: {source.text}' if source else 'user'})"
     numbers = []
     for name, parameter in criterion.definition.parameters().items():
         mark, unit = scenario.mark_of(parameter.value, profile.sources), parameter.unit
         ends = tuple(map(float, parameter.range))
-        shown = all_in_unit((parameter.value, *ends), unit)
-        value, lower, upper = (value_text(number, unit) for number in shown)
+        in_unit = all_in_unit((parameter.value, *ends), unit)
+        value, lower, upper = (value_text(number, unit) for number in in_unit)
         texts[name] = f"{value} ({mark}; range {lower} .. {upper})"
         numbers.append(AppliedDefinition(name, float(parameter.value), parameter.value.unit, mark, *ends))
     if criterion.corrected:
@@ -312,20 +312,20 @@ _SATURATIONS: Final = ("loadcell_saturation", "pressure_saturation")
 def why_rig_fails(
     criterion: scenario.Criterion, resolved: scenario.Scenario, measures: Any, wheelsets: Sequence[Any]
 ) -> str:
-    """Return which sensors are limited, or what the compensation was not identified for; else nothing."""
+    """Return the limited sensors, or the misfits of the compensation, in words; else an empty text."""
     if criterion.measure == "compensation_misfit":
         misfits = scenario.misfits(resolved)
         return "; ".join((*map(str, misfits), scenario.FIT_HINT)) if misfits else ""
     if criterion.measure not in _SATURATIONS:
         return ""
-    limited = list(_limited(criterion.measure, resolved, measures, wheelsets))
-    other = next(each for each in _SATURATIONS if each != criterion.measure)
-    both = any(_limited(other, resolved, measures, wheelsets))
+    limited = list(_limited_sensors(criterion.measure, resolved, measures, wheelsets))
+    other_sensor = next(measure for measure in _SATURATIONS if measure != criterion.measure)
+    both = any(_limited_sensors(other_sensor, resolved, measures, wheelsets))
     first = "the first of any kind" if both else "the first"
     return f"{'; '.join(limited)}; {first} by {value_text(float(measures.saturation_time), 's')}"
 
 
-def _limited(
+def _limited_sensors(
     measure: str, resolved: scenario.Scenario, measures: Any, wheelsets: Sequence[Any]
 ) -> Iterator[str]:
     sensors = resolved.rig.sensors
@@ -336,9 +336,9 @@ def _limited(
     times = {f"wheelset {n}": float(getattr(each, measure)) for n, each in enumerate(wheelsets, start=1)}
     if not of_force:
         times["the brake line"] = float(measures.line_saturation)
-    for place, time in times.items():
+    for sensor_location, time in times.items():
         if time > 0.0:
-            yield f"{what} of {place} limited to {reach.text} for {value_text(time, 's')}"
+            yield f"{what} of {sensor_location} limited to {reach.text} for {value_text(time, 's')}"
 
 
 def missed_deadlines(times: ResponseTimes | None) -> Iterator[Verdict]:

@@ -13,7 +13,7 @@ from uictest.plans.scenario import Expectation
 TestValidity = Literal["valid", "not_valid", "not_judged"]
 """Whether a stop is a test: `not_valid` where a criterion of validity or a check of rig or record fails."""
 RequirementStatus = Literal["met", "missed", "not_judged"]
-"""Whether all requirements on a stop are met; one that fails in a stop that is no test is missed, too."""
+"""Whether all requirements on a stop are met; one that fails in a stop that is not a test is missed, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ def requirements_of(verdicts: Iterable[Verdict]) -> RequirementStatus:
 
 
 def why_no_test(verdicts: Iterable[Verdict]) -> list[Verdict]:
-    """Return what keeps a stop from counting as a test: checks and criteria of validity not shown to hold.
+    """Return the verdicts by which a stop is not a test: checks and criteria of validity not shown to hold.
 
     A stop whose validity nothing judges counts.
     """
@@ -124,7 +124,7 @@ def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
 
 
 def reasons_of(verdicts: Iterable[Verdict]) -> str:
-    """Return the reasons of verdicts, each behind the id of its criterion."""
+    """Return the reasons of verdicts, each after the id of its criterion."""
     return "; ".join(f"{verdict.id}: {verdict.reason}" for verdict in verdicts)
 
 

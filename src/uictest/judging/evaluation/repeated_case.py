@@ -45,12 +45,12 @@ class OutcomeRule:
     share: float = 1.0
 
     def needed(self, stops: int) -> int:
-        """Return how many of so many stops that is."""
+        """Return the number of stops that the rule needs out of `stops`."""
         return stops_needed(self.share, stops)
 
 
 def decision_over_stops(decisions: Sequence[Decision], bounds: Bounds, rule: OutcomeRule) -> Decision:
-    """Return what a criterion says of all stops together, given its decision on each.
+    """Return the decision on a criterion over all stops together, given its decision on each.
 
     Stops that it does not apply to do not count. The value is the median of those that have one. Where the
     remaining stops agree, so does the status. Otherwise `median` judges the median, in which a stop without a
@@ -61,8 +61,8 @@ def decision_over_stops(decisions: Sequence[Decision], bounds: Bounds, rule: Out
     if not judged:
         return decisions[0]
     values = [each.value for each in judged if each.value is not None and math.isfinite(each.value)]
-    status = _status(judged, values, bounds, rule)
-    reason = _reason(judged, values, len(decisions), bounds.text, rule)
+    status = _status_over_stops(judged, values, bounds, rule)
+    reason = _reason_over_stops(judged, values, len(decisions), bounds.text, rule)
     if not values:
         return Decision(status, None, reason)
     value = statistics.median(values)
@@ -70,7 +70,7 @@ def decision_over_stops(decisions: Sequence[Decision], bounds: Bounds, rule: Out
 
 
 def over_stops(decisions: Sequence[Decision]) -> OverStops:
-    """Return how many of the decisions on one criterion have each status, and the range of their values."""
+    """Return the number of decisions on one criterion by status, and the range of their values."""
     statuses = [decision.status for decision in decisions]
     values = [each.value for each in decisions if each.value is not None and math.isfinite(each.value)]
     return OverStops(
@@ -83,7 +83,9 @@ def over_stops(decisions: Sequence[Decision]) -> OverStops:
     )
 
 
-def _status(judged: Sequence[Decision], values: Sequence[float], bounds: Bounds, rule: OutcomeRule) -> Status:
+def _status_over_stops(
+    judged: Sequence[Decision], values: Sequence[float], bounds: Bounds, rule: OutcomeRule
+) -> Status:
     statuses = [decision.status for decision in judged]
     if len(set(statuses)) == 1:
         return statuses[0]
@@ -98,7 +100,7 @@ def _status(judged: Sequence[Decision], values: Sequence[float], bounds: Bounds,
     return "inconclusive" if passed + statuses.count("inconclusive") >= needed else "fail"
 
 
-def _reason(
+def _reason_over_stops(
     judged: Sequence[Decision], values: Sequence[float], stops: int, demand: str, rule: OutcomeRule
 ) -> str:
     text = f"{sum(decision.status == 'pass' for decision in judged)} of {len(judged)} stops pass"
@@ -140,25 +142,28 @@ def outcome_over_stops(
     most telling outcome of the others: fail, pass, invalid, skipped, inconclusive in this order.
     """
     if any(stop.outcome == "error" for stop in stops):
-        return "error", _why(stops, "error")
+        return "error", _outcome_reason(stops, "error")
     if rule.name == "median":
         return at_median
-    held = [stop.as_expected(expect) for stop in stops]
-    expected, others = list(compress(stops, held)), list(compress(stops, map(not_, held)))
+    is_expected = [stop.as_expected(expect) for stop in stops]
+    expected, unexpected = list(compress(stops, is_expected)), list(compress(stops, map(not_, is_expected)))
     needed = rule.needed(len(stops))
     if len(expected) >= needed:
         enough_pass = sum(stop.outcome == "pass" for stop in expected) >= needed
-        found = {stop.outcome for stop in expected}
-        outcome = "pass" if enough_pass else next(each for each in _OF_EXPECTED if each in found)
-        return outcome, "" if outcome == "pass" else _why(stops, outcome)
-    telling = [each for each in _MOST_TELLING if each in {stop.outcome for stop in others}]
-    undecided = sum(stop.outcome == "inconclusive" for stop in others)
+        outcomes = {stop.outcome for stop in expected}
+        outcome = next(each for each in _OF_EXPECTED if each in outcomes)
+        if enough_pass or outcome == "pass":
+            return "pass", ""
+        return outcome, _outcome_reason(stops, outcome)
+    telling = [candidate for candidate in _MOST_TELLING if candidate in {stop.outcome for stop in unexpected}]
+    undecided = sum(stop.outcome == "inconclusive" for stop in unexpected)
     possible = len(expected) + undecided >= needed
-    return "inconclusive" if possible else telling[0], "; ".join(_why(stops, each) for each in telling)
+    reason = "; ".join(_outcome_reason(stops, candidate) for candidate in telling)
+    return "inconclusive" if possible else telling[0], reason
 
 
-def _why(stops: Sequence[RepeatedStop], outcome: Outcome) -> str:
-    """Return how many stops have an outcome, their seeds, and the reason of the first."""
+def _outcome_reason(stops: Sequence[RepeatedStop], outcome: Outcome) -> str:
+    """Return the number of stops with an outcome, their seeds, and the reason of the first."""
     of_outcome = [stop for stop in stops if stop.outcome == outcome]
     seeds = [stop.seed for stop in of_outcome]
     text = f"{outcome} in {len(of_outcome)} of {len(stops)} stops"
@@ -216,8 +221,8 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
 
 def _repeated_stop(repeat: SimulatedRepeat) -> RepeatedStop:
     result = repeat.result
-    own = result.outcome, result.reason, result.criteria, result.measures, result.wheelsets, result.rail
-    return RepeatedStop(repeat.seed, *own)
+    fields = result.outcome, result.reason, result.criteria, result.measures, result.wheelsets, result.rail
+    return RepeatedStop(repeat.seed, *fields)
 
 
 def _rail_over_stops(
@@ -235,8 +240,8 @@ def _rail_over_stops(
     criteria = {each.id: each for profile in resolved.judged_by for each in profile.criteria}
 
     def over(name: str) -> Verdict:
-        own = [verdict for verdicts in of_stops for verdict in verdicts if verdict.id == name]
-        decisions = [Decision(each.status, each.value, each.reason) for each in own]
+        of_criterion = [verdict for verdicts in of_stops for verdict in verdicts if verdict.id == name]
+        decisions = [Decision(each.status, each.value, each.reason) for each in of_criterion]
         bounds = bounds_of(criteria[name])
         return verdict_of(criteria[name], bounds, decision_over_stops(decisions, bounds, rule))
 
@@ -258,7 +263,7 @@ def judge_repeats(
     ]
     for profile in resolved.judged_by if stops else ():
         for criterion in profile.criteria:
-            verdict = _judge(criterion, profile, rule, stops)
+            verdict = _judge_over_stops(criterion, profile, rule, stops)
             if verdict.layer == "rig" and verdict.status == "fail":
                 verdict = replace(verdict, reason=f"{verdict.reason}; {_first_reason(repeats, verdict.id)}")
             yield with_definitions(verdict, criterion, profile, resolved)
@@ -274,7 +279,7 @@ def _first_reason(repeats: Sequence[SimulatedRepeat], criterion: str) -> str:
     return next(reasons, "")
 
 
-def _judge(
+def _judge_over_stops(
     criterion: scenario.Criterion,
     profile: scenario.Criteria,
     rule: OutcomeRule,

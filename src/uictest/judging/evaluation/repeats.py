@@ -126,47 +126,47 @@ class Repeats:
         """Return the seeds of the stops with this outcome."""
         return [stop.seed for stop in self.stops if stop.outcome == outcome]
 
-    def values(self, column: str, wheelset: int | None = None) -> list[float]:
-        """Return a column of stops, or of one wheelset (1 leads), in the order of the seeds.
+    def values(self, measure: str, wheelset: int | None = None) -> list[float]:
+        """Return a measure of each stop, or of one of its wheelsets (1 leads), in the order of the seeds.
 
         Stops that ended in an error are left out.
         """
         if wheelset is not None:
-            return [stop.wheelsets[wheelset - 1][column] for stop in self.stops if stop.wheelsets]
-        return [stop.measures[column] for stop in self.stops if stop.measures is not None]
+            return [stop.wheelsets[wheelset - 1][measure] for stop in self.stops if stop.wheelsets]
+        return [stop.measures[measure] for stop in self.stops if stop.measures is not None]
 
 
 _SEEDS_LISTED: Final = 6
-"""Seeds, or runs of them, that a reason names at most; chosen."""
+"""Seeds, or ranges of them, that a reason names at most; chosen."""
 
 
 def seeds_text(seeds: Sequence[int]) -> str:
     """Return rising seeds for a reader, e.g. `seed 3`, `seeds 0, 2, 4..9`; of many the first ones."""
-    runs = list(_runs(seeds))
-    shown = ", ".join(_run_text(*run) for run in runs[:_SEEDS_LISTED])
-    more = sum(last - first + 1 for first, last in runs[_SEEDS_LISTED:])
-    named = f"seed {shown}" if len(seeds) == 1 else f"seeds {shown}"
-    return f"{named} and {more} more" if more else named
+    ranges = list(_consecutive_ranges(seeds))
+    listed = ", ".join(_range_text(*seed_range) for seed_range in ranges[:_SEEDS_LISTED])
+    not_listed = sum(last - first + 1 for first, last in ranges[_SEEDS_LISTED:])
+    named = f"seed {listed}" if len(seeds) == 1 else f"seeds {listed}"
+    return f"{named} and {not_listed} more" if not_listed else named
 
 
-def _runs(seeds: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last of each run of seeds that follow each other."""
+def _consecutive_ranges(seeds: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last seed of each range of consecutive seeds."""
     first: int | None = None
-    for place, seed in enumerate(seeds):
+    for index, seed in enumerate(seeds):
         first = seed if first is None else first
-        if place + 1 == len(seeds) or seeds[place + 1] != seed + 1:
+        if index + 1 == len(seeds) or seeds[index + 1] != seed + 1:
             yield first, seed
             first = None
 
 
-def _run_text(first: int, last: int) -> str:
+def _range_text(first: int, last: int) -> str:
     if last - first > 1:
         return f"{first}..{last}"
     return str(first) if first == last else f"{first}, {last}"
 
 
 def stops_needed(share: float | None, stops: int) -> int:
-    """Return how many of so many stops a share of them is; None: all."""
+    """Return the least number of stops that makes up a share of `stops`; None: all of them."""
     # Not 10 of 10 stops where 0.9 times 10 is a little above 9 in binary.
     return math.ceil((1.0 if share is None else share) * stops - 1e-9)
 
@@ -212,5 +212,5 @@ WrittenRepeats = Annotated[
     Repeats,
     BuiltWhenUsed(Annotated[Repeats, WrapSerializer(_with_derived), BeforeValidator(_without_derived)]),
 ]
-"""In JSON the number of stops that passed, their share and its interval stand beside the stops, for readers
+"""In JSON the number of stops that passed, their share and its interval precede the stops, for readers
 that need no more."""

@@ -75,7 +75,7 @@ class CarInTrain:
     Args:
         train: id of the train.
         car: its number, from 1 for the leading one.
-        cars: of the train.
+        cars: cars of the train.
         ahead: forces in the coupler to the car ahead; None for the leading car, and where no stop ended.
         behind: forces in the coupler to the car behind; None for the last car, and where no stop ended.
 
@@ -112,16 +112,18 @@ def over_stops_of_train(places: Sequence[CarInTrain | None]) -> CarInTrain | Non
     if not known:
         return None
     return replace(
-        known[0], ahead=_largest(each.ahead for each in known), behind=_largest(each.behind for each in known)
+        known[0],
+        ahead=_largest_forces(each.ahead for each in known),
+        behind=_largest_forces(each.behind for each in known),
     )
 
 
-def _largest(forces: Iterable[CouplerForces | None]) -> CouplerForces | None:
-    known = [each for each in forces if each is not None]
-    if not known:
+def _largest_forces(forces: Iterable[CouplerForces | None]) -> CouplerForces | None:
+    with_forces = [each for each in forces if each is not None]
+    if not with_forces:
         return None
     return CouplerForces(
-        max(each.largest_pull_n for each in known), max(each.largest_push_n for each in known)
+        max(each.largest_pull_n for each in with_forces), max(each.largest_push_n for each in with_forces)
     )
 
 
@@ -134,10 +136,10 @@ class Deviation:
     """One condition of a case that none of the validated stops had.
 
     Args:
-        key: of the scenario, or of a part.
+        key: key of the scenario, or of a part.
         found: in the case.
         validated: among the validated stops that come nearest to it.
-        unit: of numbers, SI.
+        unit: unit of numbers, SI.
 
     """
 
@@ -153,7 +155,7 @@ class DomainOfValidity:
 
     Args:
         validation: its name.
-        sha256: of its file.
+        sha256: SHA-256 of its file.
         outside: every condition beyond it.
 
     """
@@ -345,10 +347,14 @@ _OF_SOME: Final = (
 _STATEMENTS: Final = ("test_validity", "requirement_status")
 
 
-def _written(result: CaseResult, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-    form = _filled(write(result))
+def _written_form(result: CaseResult, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form = _without_empty_fields(write(result))
     statements = {name: getattr(result, name) for name in _STATEMENTS}
-    return {**form, **statements, "criteria": [_filled(verdict) for verdict in form["criteria"]]}
+    return {
+        **form,
+        **statements,
+        "criteria": [_without_empty_fields(verdict) for verdict in form["criteria"]],
+    }
 
 
 def _without_statements(content: object) -> object:
@@ -357,7 +363,7 @@ def _without_statements(content: object) -> object:
     return content
 
 
-def _filled(form: Mapping[str, Any]) -> dict[str, Any]:
+def _without_empty_fields(form: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in form.items() if value or name not in _OF_SOME}
 
 
@@ -366,7 +372,7 @@ WrittenCaseResult = Annotated[
     CaseResult,
     required("criteria", "measures", "wheelsets"),
     BeforeValidator(_without_statements),
-    WrapSerializer(_written),
+    WrapSerializer(_written_form),
 ]
 """A result as documents hold it; what its verdicts come to stands there for readers that need no more."""
 

@@ -83,12 +83,12 @@ def _without_flips(content: object) -> object:
 
 
 WrittenSensitivity = Annotated[Sensitivity, WrapSerializer(_with_flips), BeforeValidator(_without_flips)]
-"""In JSON `flips` stands beside the intervals, for readers that need no more."""
+"""In JSON `flips` is written with the intervals, for readers that need no more."""
 
 
 @dataclass(frozen=True, slots=True)
 class AppliedDefinition:
-    """A definition as a number: what a verdict, or the measure behind it, was taken to mean.
+    """A definition as a number: what a verdict, or its measure, was taken to mean.
 
     `value`, `lowest` and `highest` are in `unit`, an SI unit; without a range the last two are None. `mark`
     says how far the number can be trusted, as that of :class:`~uictest.judging.evaluation.Parameter` does.

@@ -54,25 +54,26 @@ def observed_stops(cases: Sequence[SeriesCase], speed_tolerance_kmh: float) -> l
     return [stop for each in cases for stop in _stops_of_case(each, speed_tolerance_kmh)]
 
 
-def _stops_of_case(each: SeriesCase, tolerance: float) -> Iterator[SeriesStop]:
-    case = each.case
+def _stops_of_case(series_case: SeriesCase, speed_tolerance_kmh: float) -> Iterator[SeriesStop]:
+    case = series_case.case
     # A stop that is not repeated is the case itself, without a seed.
     stops: list[tuple[int | None, CaseResult | RepeatedStop]] = [(None, case)]
     if case.repeats is not None:
         stops = [(stop.seed, stop) for stop in case.repeats.stops]
     for seed, stop in stops:
-        why, reason = _why_not_counted(stop)
-        if why is None and (other := _other_speed(stop.measures or {}, each.speed_kmh, tolerance)):
-            why, reason = "invalid", other
+        uncounted_as, reason = _why_not_counted(stop)
+        if uncounted_as is None:
+            reason = _speed_mismatch_reason(stop.measures or {}, series_case.speed_kmh, speed_tolerance_kmh)
+            uncounted_as = "invalid" if reason else None
         yield SeriesStop(
-            role=each.role,
-            speed_kmh=each.speed_kmh,
-            rail=each.rail,
+            role=series_case.role,
+            speed_kmh=series_case.speed_kmh,
+            rail=series_case.rail,
             case=case.id,
             seed=seed,
             outcome=stop.outcome,
             reason=reason,
-            not_counted=why,
+            not_counted=uncounted_as,
             criteria=stop.criteria,
             figures=CountedStop(
                 dict(stop.measures or {}),
@@ -83,7 +84,7 @@ def _stops_of_case(each: SeriesCase, tolerance: float) -> Iterator[SeriesStop]:
 
 
 def _why_not_counted(stop: CaseResult | RepeatedStop) -> tuple[Outcome | None, str]:
-    """Return what keeps a stop from counting, and the reason; None where it counts.
+    """Return the outcome that keeps a stop from counting, and the reason; None where it counts.
 
     Validity is asked, whatever requirements it misses or leaves open, and that it was observed to its end.
     """
@@ -99,19 +100,19 @@ def _why_not_counted(stop: CaseResult | RepeatedStop) -> tuple[Outcome | None, s
     return None, ""
 
 
-def _other_speed(measures: Mapping[str, float], nominal: float, tolerance: float) -> str:
-    """Return why the initial speed is not the nominal one (km/h); empty where it is, or is not known."""
+def _speed_mismatch_reason(measures: Mapping[str, float], nominal_kmh: float, tolerance_kmh: float) -> str:
+    """Return the reason if the initial speed is off the nominal one; empty if it is not, or is unknown."""
     distance = measures.get("braking_distance_m", math.nan)
     deceleration = measures.get("mean_deceleration_mps2", math.nan)
     # The mean deceleration is v0^2 / (2 s).
-    initial = in_unit(math.sqrt(max(2.0 * deceleration * distance, 0.0)), "km/h")
-    if not abs(initial - nominal) > tolerance * (1.0 + 1e-9) + 1e-6:
+    initial_kmh = in_unit(math.sqrt(max(2.0 * deceleration * distance, 0.0)), "km/h")
+    if not abs(initial_kmh - nominal_kmh) > tolerance_kmh * (1.0 + 1e-9) + 1e-6:
         return ""
-    return f"initial speed is {initial:.4g} km/h, nominal {nominal:g} +- {tolerance:g} km/h"
+    return f"initial speed is {initial_kmh:.4g} km/h, nominal {nominal_kmh:g} +- {tolerance_kmh:g} km/h"
 
 
 def counts_of(stops: Sequence[SeriesStop], role: Role) -> StopCounts:
-    """Return how many stops of a role there are, and how many count."""
+    """Return the number of stops of a role, and of those that count."""
     of_role = [stop for stop in stops if stop.role == role]
     return StopCounts(len(of_role), sum(stop.counts for stop in of_role))
 
@@ -138,11 +139,11 @@ def with_relations(series: Series, stops: Sequence[SeriesStop]) -> list[SeriesSt
         if criterion.scope == "stop" and criterion.of_dry_stop
     ]
     for criterion in criteria:
-        stops = [_judged(series, criterion, stop, stops) for stop in stops]
+        stops = [_with_relation(series, criterion, stop, stops) for stop in stops]
     return list(stops)
 
 
-def _judged(
+def _with_relation(
     series: Series, criterion: Criterion, stop: SeriesStop, stops: Sequence[SeriesStop]
 ) -> SeriesStop:
     if stop.role != "wet" or not stop.counts or not applies(series, criterion, stop):

@@ -26,7 +26,7 @@ from uictest.plans.series import Role, Series
 def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
     """Return the result of a series whose cases were simulated, recorded, or read back from a document.
 
-    Columns, verdicts and outcomes of the stops are all that is used. A stop that is no test, or was not
+    Columns, verdicts and outcomes of the stops are all that is used. A stop that is not a test, or was not
     judged, does not count. Where too few wet stops count, or no dry one, nothing is decided.
 
     Raises ValueError for a case that the series does not have.
@@ -39,7 +39,7 @@ def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
         _verdict_of(series, criterion, profile, observed.judged_by(criterion), stops, observed.too_few)
         for profile, criterion in series.judged_criteria
     )
-    outcome, reason = _outcome(stops, verdicts)
+    outcome, reason = _series_outcome(stops, verdicts)
     return SeriesResult(
         id=series.id,
         file=series.path.as_posix(),
@@ -111,31 +111,33 @@ class _ObservedSeries:
     @property
     def speeds(self) -> list[SpeedStops]:
         """The stops that count, by rising speed."""
-        return self._groups([stop for stop in self.stops if stop.role == "wet"])
+        return self._stops_by_speed([stop for stop in self.stops if stop.role == "wet"])
 
     def judged_by(self, criterion: Criterion) -> list[SpeedStops]:
         """Return of these the ones that a criterion applies to, with the dry ones as their reference."""
-        return [group for group in self._groups(self._that(criterion, "wet")) if group.wet]
+        return [
+            group for group in self._stops_by_speed(self._applicable_stops(criterion, "wet")) if group.wet
+        ]
 
     @property
     def bypassed_k_wet(self) -> SeriesValue | None:
         """K_wet with the WSP bypassed, over the stops by which it is judged; None where it is not."""
         of_k_wet = [each for _, each in self.series.judged_criteria if each.measure == "k_wet"]
-        stops = [stop for each in of_k_wet[:1] for stop in self._that(each, "bypassed")]
-        groups = [group for group in self._groups(stops) if group.wet]
+        stops = [stop for each in of_k_wet[:1] for stop in self._applicable_stops(each, "bypassed")]
+        groups = [group for group in self._stops_by_speed(stops) if group.wet]
         return SERIES_MEASURES["k_wet"].of_series(groups, self.confidence) if groups else None
 
-    def _that(self, criterion: Criterion, role: Role) -> list[SeriesStop]:
+    def _applicable_stops(self, criterion: Criterion, role: Role) -> list[SeriesStop]:
         return [s for s in self.stops if s.role == role and applies(self.series, criterion, s)]
 
-    def _groups(self, slippery: Sequence[SeriesStop]) -> list[SpeedStops]:
-        """Return at every place those of some stops that count, as wet ones, with the dry ones from there."""
+    def _stops_by_speed(self, slippery: Sequence[SeriesStop]) -> list[SpeedStops]:
+        """Return a group per speed and rail: the dry stops and, as wet ones, the slippery ones that count."""
         groups = []
         for speed, rail in self.places:
             at_place = [each for each in slippery if each.speed_kmh == speed and rail in ("", each.rail)]
             dry, wet = (
                 tuple(stop.figures for stop in stops if stop.counts)
-                for stops in (self._at(speed, "dry"), at_place)
+                for stops in (self._stops_from(speed, "dry"), at_place)
             )
             groups.append(SpeedStops(speed * KILOMETRE_PER_HOUR, dry, wet, rail))
         return groups
@@ -146,17 +148,17 @@ class _ObservedSeries:
         return "; ".join(dict.fromkeys(self._shortages()))
 
     def speed_result(self, speed: SpeedStops) -> SpeedResult:
-        """Return what the stops from one speed show."""
+        """Return the counts and measures of the stops from one speed."""
         kmh = round(speed.speed / KILOMETRE_PER_HOUR, 9)
         return SpeedResult(
             speed_kmh=kmh,
             rail=speed.rail,
-            dry=counts_of(self._at(kmh, "dry"), "dry"),
-            wet=counts_of(self._at(kmh, "wet", speed.rail), "wet"),
+            dry=counts_of(self._stops_from(kmh, "dry"), "dry"),
+            wet=counts_of(self._stops_from(kmh, "wet", speed.rail), "wet"),
             measures={name: each.of_speed(speed, self.confidence) for name, each in SERIES_MEASURES.items()},
         )
 
-    def _at(self, speed: float, role: Role, rail: Rail = "") -> list[SeriesStop]:
+    def _stops_from(self, speed: float, role: Role, rail: Rail = "") -> list[SeriesStop]:
         at_speed = [stop for stop in self.stops if (stop.speed_kmh, stop.role) == (speed, role)]
         return [stop for stop in at_speed if rail in ("", stop.rail)]
 
@@ -164,8 +166,8 @@ class _ObservedSeries:
         needed = self.series.file.valid_stops
         for speed, rail in self.places:
             dry, wet = (
-                counts_of(self._at(speed, "dry"), "dry"),
-                counts_of(self._at(speed, "wet", rail), "wet"),
+                counts_of(self._stops_from(speed, "dry"), "dry"),
+                counts_of(self._stops_from(speed, "wet", rail), "wet"),
             )
             if not dry.counted:
                 yield f"none of {dry.run} dry stops from {speed:g} km/h counts"
@@ -174,7 +176,7 @@ class _ObservedSeries:
                 yield f"{wet.counted} of {wet.run} wet stops from {place} count, {needed.text} must"
 
 
-def _outcome(stops: Sequence[SeriesStop], verdicts: Sequence[SeriesVerdict]) -> tuple[Outcome, str]:
+def _series_outcome(stops: Sequence[SeriesStop], verdicts: Sequence[SeriesVerdict]) -> tuple[Outcome, str]:
     failed = [stop for stop in stops if stop.not_counted == "error"]
     if failed:
         return "error", f"{len(failed)} of {len(stops)} stops failed to run; {failed[0].reason}"

@@ -29,7 +29,7 @@ _Named = TypeVar("_Named")
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace:
-    """Where a car runs in its train."""
+    """Position of a car in its train."""
 
     train: str
     """Id of the train: that of the case without the number of the car."""
@@ -59,7 +59,7 @@ class Case:
     inputs: dict[str, str]
     """Every file read for it, by shown name, and its SHA-256."""
     train: TrainPlace | None = None
-    """Where it runs in a train; None for a car alone."""
+    """Position in the train; None for a car alone."""
     vehicle_stated: bool = True
     """Whether anyone said which vehicle it is; of a record that is judged without a scenario nobody may."""
 
@@ -110,7 +110,7 @@ def with_another_controller(scenario: Scenario) -> Scenario:
 
 def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:
     """Return the case of an id, or the only one. Raises ValueError."""
-    return _chosen({case.id: case for case in cases}, case_id, "case")
+    return _only_or_named({case.id: case for case in cases}, case_id, "case")
 
 
 def chosen_train(cases: Sequence[Case], train_id: str | None) -> tuple[Case, ...]:
@@ -118,10 +118,10 @@ def chosen_train(cases: Sequence[Case], train_id: str | None) -> tuple[Case, ...
     trains: dict[str, list[Case]] = {}
     for case in cases:
         trains.setdefault(case.id if case.train is None else case.train.train, []).append(case)
-    return tuple(_chosen(trains, train_id, "train"))
+    return tuple(_only_or_named(trains, train_id, "train"))
 
 
-def _chosen(named: Mapping[str, _Named], name: str | None, kind: str) -> _Named:
+def _only_or_named(named: Mapping[str, _Named], name: str | None, kind: str) -> _Named:
     if name is None:
         if len(named) != 1:
             raise ValueError(f"the scenario has {len(named)} {kind}s: pass case= one of {', '.join(named)}")
@@ -138,11 +138,11 @@ FAULTS: Final = "faults"
 CONTROLLER: Final = "controller"
 """Key of the controller of a scenario."""
 EXPECT: Final = "expect"
-"""Key of what is expected of a case, which is no part of its id."""
+"""Key of the expected outcome of a case, which is not part of its id."""
 CAR: Final = "car"
-"""What tells the cases of the cars of a train apart."""
+"""Key that distinguishes the cases of the cars of a train."""
 Labels = Mapping[int, str]
-"""What ids call controllers, by the identity of their nodes."""
+"""Identity of the node of a controller -> its label in ids."""
 NO_LABELS: Final[Labels] = MappingProxyType({})
 _DIGITS: Final = 8
 """Of a SHA-256 that tells two programs apart."""
@@ -164,9 +164,9 @@ def case_id(
 
 
 def controller_labels(settings: Iterable[Setting], parts: Parts) -> Labels:
-    """Return what ids call the controllers among the values of one file.
+    """Return the labels of the controllers among the values of one file, as used in ids.
 
-    That is the name of the part. Several programs of one name are `name@version`, or, where a version is
+    A label is the name of the part. Several programs of one name are `name@version`, or, where a version is
     unknown or that of another one, `name@` and the first digits of the SHA-256. A controller that cannot be
     resolved has no label: its error is reported where its case is.
     """
@@ -176,12 +176,16 @@ def controller_labels(settings: Iterable[Setting], parts: Parts) -> Labels:
         if setting.key == CONTROLLER and id(node) not in programs:
             with suppress(ScenarioErrors):
                 part = parts.part(node, PART_KEYS[CONTROLLER,].model, (CONTROLLER,)).part
-                name = part.name if "name" in part.model_fields_set else _name(setting)
+                name = part.name if "name" in part.model_fields_set else _name_of_setting(setting)
                 version, program = getattr(part, "version", None) or "", part.program
                 digits = (
                     "" if program is None else program.sha256[:_DIGITS]
                 )  # a built-in one has a name alone
-                programs[id(node)] = _safe(name), _safe(version), digits
+                programs[id(node)] = (
+                    _without_unsafe_characters(name),
+                    _without_unsafe_characters(version),
+                    digits,
+                )
     return {key: _told_apart(program, {*programs.values()}) for key, program in programs.items()}
 
 
@@ -230,15 +234,15 @@ def _shortest_tail(key: str, others: list[str]) -> str:
 
 def value_label(setting: Setting, labels: Labels = NO_LABELS) -> str:
     """The value as written in the characters of file names; of a controller, its label."""
-    label = labels.get(id(setting.value.node)) or _safe(_name(setting))
+    label = labels.get(id(setting.value.node)) or _without_unsafe_characters(_name_of_setting(setting))
     return label or f"value{setting.number}"
 
 
-def _safe(text: str) -> str:
+def _without_unsafe_characters(text: str) -> str:
     return _UNSAFE.sub("", text)
 
 
-def _name(setting: Setting) -> str:
+def _name_of_setting(setting: Setting) -> str:
     node = setting.value.node
     if setting.key == FAULTS and isinstance(node, List):
         return "+".join(map(_name_of_fault, node.items)) or "none"
@@ -256,7 +260,7 @@ _NAMED_BY: Final = ("part", "kind", "value", "wheelset", "at", "until")
 
 
 def _name_of_fault(node: Node) -> str:
-    """Return what tells a fault from others: `speed-sensor-stuck-2-3s`."""
+    """Return the name of a fault in ids, such as `speed-sensor-stuck-2-3s`."""
     named = (node.get(key) for key in _NAMED_BY) if isinstance(node, Map) else ()
     return "-".join(each.text for each in named if isinstance(each, Scalar))
 

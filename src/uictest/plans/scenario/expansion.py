@@ -1,4 +1,4 @@
-"""What varies from case to case: the lists of scenarios, and what sweeps draw besides."""
+"""Variation from case to case: the lists of scenarios, and the distributions of sweeps."""
 
 from __future__ import annotations
 
@@ -67,9 +67,12 @@ def expand_valid(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
 
     If there are too many, every value occurs in at least one case.
     """
-    matrix, zipped = _axes(tree, "matrix", diagnostics), _axes(tree, "zip", diagnostics)
-    include, exclude = _listed(tree, "include", diagnostics), _listed(tree, "exclude", diagnostics)
-    diagnostics.extend(_unequal(zipped))
+    matrix, zipped = _parse_axes(tree, "matrix", diagnostics), _parse_axes(tree, "zip", diagnostics)
+    include, exclude = (
+        _listed_mappings(tree, "include", diagnostics),
+        _listed_mappings(tree, "exclude", diagnostics),
+    )
+    diagnostics.extend(_unequal_lengths(zipped))
     in_matrix = {axis[0].key for axis in matrix}
     diagnostics.extend(
         diagnose(axis[0].value.key, "the key is under matrix as well", f"zip.{axis[0].key}")
@@ -79,11 +82,11 @@ def expand_valid(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
     too_many = list(_too_many(tree, matrix, zipped))
     if too_many:
         diagnostics.extend(too_many)
-        return [*_one_at_a_time([*matrix, *zipped]), *_included(include)]
-    variants = _combined(matrix, zipped, alone=not include)
+        return [*_one_at_a_time([*matrix, *zipped]), *_included_variants(include)]
+    variants = _combined_axes(matrix, zipped, alone=not include)
     swept = _keys_under(tree, "matrix") | _keys_under(tree, "zip")
     variants = _without_excluded(variants, exclude, swept, diagnostics)
-    variants.extend(_included(include))
+    variants.extend(_included_variants(include))
     if not variants and not diagnostics:
         entry = next(tree.entries[section] for section in reversed(EXPANSION_KEYS) if section in tree.entries)
         diagnostics.append(diagnose(entry.key, "no case remains"))
@@ -92,29 +95,33 @@ def expand_valid(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
 
 def distinct(variants: list[Variant]) -> list[Variant]:
     """The cases without those that repeat an earlier one."""
-    by_values = {_values(variant): variant for variant in reversed(variants)}
-    return [variant for variant in variants if by_values[_values(variant)] is variant]
+    by_values = {_values_by_key(variant): variant for variant in reversed(variants)}
+    return [variant for variant in variants if by_values[_values_by_key(variant)] is variant]
 
 
-def _values(variant: Variant) -> frozenset[tuple[str, str]]:
+def _values_by_key(variant: Variant) -> frozenset[tuple[str, str]]:
     return frozenset((setting.key, as_written(setting.value.node)) for setting in variant)
 
 
 Axis = tuple[Setting, ...]
 
 
-def _axes(tree: Map, section: str, diagnostics: list[Diagnostic]) -> list[Axis]:
+def _parse_axes(tree: Map, section: str, diagnostics: list[Diagnostic]) -> list[Axis]:
     node = tree.get(section)
     if node is None or is_null(node):
         return []
     if not isinstance(node, Map) or not node.entries:
         what = "an empty mapping" if isinstance(node, Map) else describe(node)
-        diagnostics.append(_malformed(node, section, f"expected lists of values by dotted key, found {what}"))
+        diagnostics.append(
+            _malformed_section(node, section, f"expected lists of values by dotted key, found {what}")
+        )
         return []
-    return [axis for key, entry in node.entries.items() if (axis := _axis(section, key, entry, diagnostics))]
+    return [
+        axis for key, entry in node.entries.items() if (axis := _parse_axis(section, key, entry, diagnostics))
+    ]
 
 
-def _axis(section: str, key: str, entry: Entry, diagnostics: list[Diagnostic]) -> Axis:
+def _parse_axis(section: str, key: str, entry: Entry, diagnostics: list[Diagnostic]) -> Axis:
     if not isinstance(entry.node, List):
         message = f"expected a list of values, found {describe(entry.node)}"
         diagnostics.append(
@@ -134,15 +141,19 @@ def _axis(section: str, key: str, entry: Entry, diagnostics: list[Diagnostic]) -
     )
 
 
-def _listed(tree: Map, section: str, diagnostics: list[Diagnostic]) -> list[Map]:
+def _listed_mappings(tree: Map, section: str, diagnostics: list[Diagnostic]) -> list[Map]:
     node = tree.get(section)
     if node is None or is_null(node):
         return []
     if not isinstance(node, List):
-        diagnostics.append(_malformed(node, section, f"expected a list of mappings, found {describe(node)}"))
+        diagnostics.append(
+            _malformed_section(node, section, f"expected a list of mappings, found {describe(node)}")
+        )
         return []
     diagnostics.extend(
-        _malformed(item, section, f"expected a mapping of dotted keys to values, found {describe(item)}")
+        _malformed_section(
+            item, section, f"expected a mapping of dotted keys to values, found {describe(item)}"
+        )
         for item in node.items
         if not isinstance(item, Map) or not item.entries
     )
@@ -162,11 +173,11 @@ _EXAMPLES: Final = {
 }
 
 
-def _malformed(node: Node, section: str, message: str) -> Diagnostic:
+def _malformed_section(node: Node, section: str, message: str) -> Diagnostic:
     return diagnose(node.location, message, section, f"write `{_EXAMPLES[section]}`")
 
 
-def _unequal(zipped: list[Axis]) -> Iterator[Diagnostic]:
+def _unequal_lengths(zipped: list[Axis]) -> Iterator[Diagnostic]:
     for axis in zipped[1:]:
         if len(axis) != len(zipped[0]):
             count = "1 value" if len(axis) == 1 else f"{len(axis)} values"
@@ -184,7 +195,7 @@ def _too_many(tree: Map, matrix: list[Axis], zipped: list[Axis]) -> Iterator[Dia
         )
 
 
-def _combined(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> list[Variant]:
+def _combined_axes(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> list[Variant]:
     if not matrix and not zipped:
         return [()] if alone else []
     # Unequal lengths are already reported; the rows that all lists have are checked nevertheless.
@@ -201,7 +212,7 @@ def _one_at_a_time(axes: list[Axis]) -> Iterator[Variant]:
             yield (*first[:index], setting, *first[index + 1 :])
 
 
-def _included(include: list[Map]) -> Iterator[Variant]:
+def _included_variants(include: list[Map]) -> Iterator[Variant]:
     for number, item in enumerate(include, start=1):
         yield tuple(Setting(key, entry, number) for key, entry in item.entries.items())
 
@@ -288,7 +299,7 @@ class Range(Model):
 
     @property
     def size(self) -> int:
-        """How many numbers it has, counted without making them."""
+        """Number of values, counted without making them."""
         if self.step is None:
             return self.count or 0
         return count_by_step(self.first.number, self.last.number, self.step.number)
@@ -326,7 +337,7 @@ class Normal(Model):
                 yield Inconsistency((key,), message, hint)
 
 
-def _numbers(words: str, *names: str) -> BeforeValidator:
+def _list_of_numbers(words: str, *names: str) -> BeforeValidator:
 
     def check(entry: object) -> object:
         if isinstance(entry, list | tuple) and len(entry) == len(names):
@@ -338,11 +349,11 @@ def _numbers(words: str, *names: str) -> BeforeValidator:
 
 
 TwoBounds = Annotated[
-    tuple[DecimalQuantityField, DecimalQuantityField], _numbers("two bounds", "lowest", "highest")
+    tuple[DecimalQuantityField, DecimalQuantityField], _list_of_numbers("two bounds", "lowest", "highest")
 ]
 ThreeValues = Annotated[
     tuple[DecimalQuantityField, DecimalQuantityField, DecimalQuantityField],
-    _numbers("three values", "lowest", "likeliest", "highest"),
+    _list_of_numbers("three values", "lowest", "likeliest", "highest"),
 ]
 
 
@@ -453,7 +464,7 @@ Lists = dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]]
 
 
 class Vary(Model):
-    """What a sweep varies: one scenario, run with many values of some of its parameters.
+    """A sweep: one scenario, run with many values of some of its parameters.
 
     The cases are all combinations of `matrix`, `ranges`, the rows of `zip` and the points of `sample`.
     """

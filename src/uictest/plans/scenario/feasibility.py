@@ -151,7 +151,7 @@ class StepLimit(NamedTuple):
 
     @property
     def hint(self) -> str:
-        """What to change."""
+        """Hint on the value to change."""
         if self.longest < _SHORTEST:
             return f"check {self.keys}; no step is short enough for these"
         longest = f"{self.longest * 1000.0:.3g} ms"
@@ -167,7 +167,7 @@ def limit_of_vehicle(vehicle: Vehicle) -> StepLimit:
     """
     longest, motion = min(
         ((math.sqrt(damping**2 + 2.0 * stiffness * mass) - damping) / stiffness, name)
-        for name, mass, (stiffness, damping) in _motions(vehicle)
+        for name, mass, (stiffness, damping) in _motions_of_vehicle(vehicle)
     )
     return StepLimit(longest, motion, "masses, stiffness and damping")
 
@@ -192,11 +192,11 @@ def limit_of_air(
         valves: sonic conductances into each tank and out of it, by its WSP valve and leaks, m3/(s Pa).
         line_leak: sonic conductance of the leaks of the brake line, m3/(s Pa).
     """
-    vessels = _vessels(system, smallest_tank, valves, line_leak)
-    return min((*vessels, _piston(system, caliper, smallest_tank)))
+    vessels = _vessel_limits(system, smallest_tank, valves, line_leak)
+    return min((*vessels, _piston_limit(system, caliper, smallest_tank)))
 
 
-def _vessels(
+def _vessel_limits(
     system: BrakeSystem, smallest_tank: float, valves: Sequence[tuple[float, float]], line_leak: float
 ) -> Iterator[StepLimit]:
     relay = system.relay_valve
@@ -230,7 +230,7 @@ def _vessels(
         yield StepLimit(volume / (stiffness * REFERENCE_DENSITY * conductance), of, keys)
 
 
-def _piston(system: BrakeSystem, caliper: Caliper, smallest_tank: float) -> StepLimit:
+def _piston_limit(system: BrakeSystem, caliper: Caliper, smallest_tank: float) -> StepLimit:
     """Return the limit of a free piston, whose stroke answers to the pressure of the last step.
 
     The air pushes back by kappa p A2 / V, N/m, which the spring and, within a step h, the viscous friction
@@ -248,7 +248,7 @@ _Coupling = tuple[float, float]
 """Stiffness and damping."""
 
 
-def _motions(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
+def _motions_of_vehicle(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
     body, bogie, wheelset = vehicle.loaded_body, vehicle.bogie, vehicle.wheelset
     primary, secondary, link = vehicle.primary, vehicle.secondary, vehicle.traction_link
     pull = (_PRIMARIES * primary.longitudinal_stiffness, _PRIMARIES * primary.longitudinal_damping)
@@ -266,24 +266,28 @@ def _motions(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
     on_axles = max((bogie.height - radius) ** 2 for radius in vehicle.wheel_radii)
     return [
         ("a wheelset on its primary suspension", wheelset.mass, pull),
-        ("the longitudinal motion", bogie.mass, _sum((2.0, pull), (1.0, side_pull), (1.0, rod))),
-        ("the bounce of a bogie", bogie.mass, _sum((2.0, lift), (1.0, side_lift))),
+        ("the longitudinal motion", bogie.mass, _summed_coupling((2.0, pull), (1.0, side_pull), (1.0, rod))),
+        ("the bounce of a bogie", bogie.mass, _summed_coupling((2.0, lift), (1.0, side_lift))),
         (
             "the pitch of a bogie",
             bogie.pitch_inertia,
-            _sum((2.0 * on_axles, pull), (2.0 * bogie.half_wheelbase**2, lift), *pitch(bogie.height)),
+            _summed_coupling(
+                (2.0 * on_axles, pull), (2.0 * bogie.half_wheelbase**2, lift), *pitch(bogie.height)
+            ),
         ),
-        ("the longitudinal motion", body.mass, _sum((2.0, side_pull), (2.0, rod))),
-        ("the bounce of the body", body.mass, _sum((2.0, side_lift))),
+        ("the longitudinal motion", body.mass, _summed_coupling((2.0, side_pull), (2.0, rod))),
+        ("the bounce of the body", body.mass, _summed_coupling((2.0, side_lift))),
         (
             "the pitch of the body",
             body.pitch_inertia,
-            _sum((2.0 * vehicle.half_pivot_distance**2, side_lift), *pitch(body.height), *pitch(body.height)),
+            _summed_coupling(
+                (2.0 * vehicle.half_pivot_distance**2, side_lift), *pitch(body.height), *pitch(body.height)
+            ),
         ),
     ]
 
 
-def _sum(*parts: tuple[float, _Coupling]) -> _Coupling:
+def _summed_coupling(*parts: tuple[float, _Coupling]) -> _Coupling:
     return total(share * k for share, (k, _) in parts), total(share * c for share, (_, c) in parts)
 
 
@@ -413,14 +417,14 @@ def plausible_spans() -> dict[str, dict[str, Any]]:
 
 def car_figures(scenario: Any) -> CarFigures:
     """Return the figures of the car of a scenario, of its regular calipers at full service."""
-    derived = list(_derived(scenario))
+    derived = list(_derived_quantities(scenario))
     values = {name: value for name, value, _ in derived}
-    beyond = tuple(each for row in derived for each in _implausible(*row))
+    beyond = tuple(each for row in derived for each in _implausible_quantity(*row))
     mass = scenario.vehicle.total_mass / SIZES["t"]
     return CarFigures(mass, values["axle-load"], values["braked-weight-percentage"], beyond)
 
 
-def _implausible(name: str, value: float, key: str) -> Iterator[Implausible]:
+def _implausible_quantity(name: str, value: float, key: str) -> Iterator[Implausible]:
     row = plausible_spans()[name]
     lowest, highest = row["span"]
     if not lowest <= value <= highest:
@@ -429,7 +433,7 @@ def _implausible(name: str, value: float, key: str) -> Iterator[Implausible]:
         yield Implausible(name, row["title"], value, row["unit"], (lowest, highest), keys, likely)
 
 
-def _derived(scenario: Any) -> Iterator[tuple[str, float, str]]:
+def _derived_quantities(scenario: Any) -> Iterator[tuple[str, float, str]]:
     """Yield derived quantities in their units; and the key of the value of a wheelset, empty for the rest."""
     vehicle, system, caliper = scenario.vehicle, scenario.brake.system, scenario.rig.caliper
     wheelset, radii = vehicle.wheelset, vehicle.wheel_radii

@@ -32,37 +32,37 @@ class FmuDescription(NamedTuple):
 
 
 def read_description(path: Path) -> FmuDescription:
-    """Return what an FMU states, nothing where it cannot be read: who loads it says why. Raises OSError."""
+    """Return the description of an FMU; empty if it is unreadable, which loading reports. Raises OSError."""
     with (
         files.temporary_folder() as folder,
         reading_process(__name__, [str(path.absolute())], folder) as process,
         suppress(subprocess.TimeoutExpired),
     ):
-        told, _ = process.communicate(timeout=_SECONDS)
+        answer, _ = process.communicate(timeout=_SECONDS)
         if process.returncode == 0:
-            return FmuDescription(*json.loads(told))
+            return FmuDescription(*json.loads(answer))
     return FmuDescription()
 
 
 def _description_in(path: Path) -> FmuDescription:
-    """Return what an FMU states; raise anything at all for what is no FMU."""
+    """Return the description of an FMU. Raises any exception for a file that is not an FMU."""
     from xml.etree import ElementTree  # which the process that asks does without
 
     with zipfile.ZipFile(path) as archive:
         if archive.getinfo("modelDescription.xml").file_size > LARGEST_DESCRIPTION:
             raise ValueError("the description is too large")
         root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-    types = {str(each.get("name")): each for each in root.iterfind("TypeDefinitions/*")}
+    types = {str(element.get("name")): element for element in root.iterfind("TypeDefinitions/*")}
     parameters = {
-        str(variable.get("name")): _declared(variable, types)
+        str(variable.get("name")): _declared_parameter(variable, types)
         for variable in root.iterfind("ModelVariables/*")
         if variable.get("causality") == "parameter"
     }
     return FmuDescription(root.get("version", ""), parameters)
 
 
-def _declared(variable: Any, types: Mapping[str, Any]) -> dict[str, Any]:
-    """Return one parameter. FMI 2.0 has its type as an element inside, FMI 3.0 calls the element so."""
+def _declared_parameter(variable: Any, types: Mapping[str, Any]) -> dict[str, Any]:
+    """Return one parameter. Its type is an inner element in FMI 2.0, the name of the element in FMI 3.0."""
     typed = next(iter(variable), variable) if variable.tag == "ScalarVariable" else variable
     declared = types.get(typed.get("declaredType", ""))
     attributes: dict[str, str] = {}
@@ -73,8 +73,8 @@ def _declared(variable: Any, types: Mapping[str, Any]) -> dict[str, Any]:
     if typed.tag == "Boolean":
         default = None if default is None else default in ("true", "1")
     elif typed.tag != "String":
-        default = next(_numbers([default or ""]), None)
-        bounds = [*_numbers([attributes.get("min", "-inf"), attributes.get("max", "inf")])]
+        default = next(_parsed_numbers([default or ""]), None)
+        bounds = [*_parsed_numbers([attributes.get("min", "-inf"), attributes.get("max", "inf")])]
     return {
         "default": default,
         "unit": attributes.get("unit", ""),
@@ -83,8 +83,8 @@ def _declared(variable: Any, types: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _numbers(texts: Iterable[str]) -> Iterator[float]:
-    """Yield those texts that are one number: NaN is none, and the start value of an array is several."""
+def _parsed_numbers(texts: Iterable[str]) -> Iterator[float]:
+    """Yield the numbers among texts, without NaN and without arrays, whose start value is several numbers."""
     for text in texts:
         with suppress(ValueError):
             if not math.isnan(number := float(text)):

@@ -128,9 +128,9 @@ def part_schema(kind: str) -> dict[str, Any]:
         described["properties"] = {**of_files, **described["properties"]}
         # A controller from outside may be named after its file.
         described["required"] = ["schema", *({"name"} & set(described.get("required", ())))]
-    for definition in _merged(schema):
+    for definition in _merged_definitions(schema):
         definition.pop("required", None)
-    schema["definitions"] = _used(schema)
+    schema["definitions"] = _used_definitions(schema)
     return schema
 
 
@@ -139,18 +139,18 @@ def _alternatives(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
     if "properties" in schema:
         yield schema
         return
-    for reference in _references(schema.get("anyOf", ())):
+    for reference in _referenced_names(schema.get("anyOf", ())):
         yield from _alternatives(schema["definitions"][reference])
 
 
-def _merged(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _merged_definitions(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the definitions of mappings inside a part, which take over what its parent has in theirs.
 
     The items of a list are none of them: a list replaces that of the parent.
     """
     top = list(_alternatives(schema))
     seen: set[str] = set()
-    waiting = [name for described in top for name in _references(described["properties"])]
+    waiting = [name for described in top for name in _referenced_names(described["properties"])]
     while waiting:
         name = waiting.pop()
         if name in seen or name.startswith("quantity-"):
@@ -158,30 +158,30 @@ def _merged(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
         seen.add(name)
         definition = schema["definitions"][name]
         yield definition
-        waiting += _references(definition.get("properties", {}))
+        waiting += _referenced_names(definition.get("properties", {}))
 
 
-def _used(schema: dict[str, Any]) -> dict[str, Any]:
-    """Return the definitions that a schema needs: it lists those of every kind of quantity."""
+def _used_definitions(schema: dict[str, Any]) -> dict[str, Any]:
+    """Return the definitions that a schema refers to, of those that it lists for every kind of quantity."""
     definitions = schema["definitions"]
     needed: dict[str, Any] = {}
-    waiting = list(_references({**schema, "definitions": None}, items=True))
+    waiting = list(_referenced_names({**schema, "definitions": None}, items=True))
     while waiting:
         name = waiting.pop()
         if name not in needed:
             needed[name] = definitions[name]
-            waiting += _references(needed[name], items=True)
+            waiting += _referenced_names(needed[name], items=True)
     return {name: definitions[name] for name in definitions if name in needed}
 
 
-def _references(node: Any, *, items: bool = False) -> Iterator[str]:
+def _referenced_names(node: Any, *, items: bool = False) -> Iterator[str]:
     """Yield the definitions that a schema refers to; those of the items of lists only if asked for."""
     if isinstance(node, dict):
         if isinstance(node.get("$ref"), str):
             yield node["$ref"].rpartition("/")[2]
         for key, inner in node.items():
             if items or key != "items":
-                yield from _references(inner, items=items)
+                yield from _referenced_names(inner, items=items)
     elif isinstance(node, list | tuple):
         for inner in node:
-            yield from _references(inner, items=items)
+            yield from _referenced_names(inner, items=items)

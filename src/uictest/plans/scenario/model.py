@@ -93,18 +93,18 @@ class RecordTolerances(Model):
 
 
 class Record(Model):
-    """What is checked of a recorded stop."""
+    """Settings of the checks of a recorded stop."""
 
     tolerances: RecordTolerances = field("Tolerances of the checks.", default=RecordTolerances())
 
 
 def check_id(name: str) -> str:
-    """Return what the verdict of the check with a tolerance is called."""
+    """Return the id of the verdict of the check that has this tolerance."""
     return f"record-{name.replace('_', '-')}"
 
 
 class Rig(Model):
-    """How the rig is built up."""
+    """Configuration of the rig."""
 
     topology: Literal["one-caliper", "four-caliper"] = field(
         "One caliper and three tanks, or a caliper in every module.", default="one-caliper"
@@ -149,7 +149,7 @@ def _no_survey(value: object) -> object:
 
 
 class Simulation(Model):
-    """How the stop is simulated."""
+    """Settings of the simulation."""
 
     time_step: Annotated[Quantity, of_kind("time", "0.01 ms .. 1 ms"), BeforeValidator(_no_survey)] = field(
         "Base step; a whole number of them makes a controller cycle.", default=default("0.5 ms", "time")
@@ -276,7 +276,7 @@ class Scenario(TestFile):
                 )
 
     def _step_too_long(self) -> Iterator[Inconsistency]:
-        """Yield a step that cannot follow the car on its springs, or the air behind its valves."""
+        """Yield a step that cannot follow the car on its springs, or the air after its valves."""
         system = self.brake.system
         smallest_tank = min(system.tank.volume, self.tank_volume_with_caliper)
         valves = [
@@ -344,7 +344,7 @@ class Scenario(TestFile):
 
     @property
     def developed_pressure(self) -> float:
-        """Pressure of the brake line that shows a developed brake, Pa; NaN beside a dynamic brake."""
+        """Pressure of the brake line that shows a developed brake, Pa; NaN with a dynamic brake."""
         if self.brake.dynamic is not None:
             return math.nan
         return float(self.brake.commanded_pressure * load_share(self.brake.system.load_valve, self.vehicle))

@@ -59,10 +59,10 @@ def with_value(tree: Map, key: str, value: Entry) -> Map:
         raise single_error(
             value.key, f"{quoted(elements[0])} belongs to the file and cannot vary from case to case", key
         )
-    return _assigned(tree, elements, value, "")
+    return _with_assigned(tree, elements, value, "")
 
 
-def _assigned(tree: Map, elements: list[str], value: Entry, above: str) -> Map:
+def _with_assigned(tree: Map, elements: list[str], value: Entry, above: str) -> Map:
     first, rest = elements[0], elements[1:]
     if not rest:
         return tree.with_entry(first, value)
@@ -71,7 +71,7 @@ def _assigned(tree: Map, elements: list[str], value: Entry, above: str) -> Map:
     if isinstance(node, List):
         return tree.with_entry(first, Entry(location, _assigned_in(node, rest, value, key)))
     inner = _mapping(node, key, value.key)
-    return tree.with_entry(first, Entry(location, _assigned(inner, rest, value, f"{key}.")))
+    return tree.with_entry(first, Entry(location, _with_assigned(inner, rest, value, f"{key}.")))
 
 
 def _assigned_in(listed: List, elements: list[str], value: Entry, key: str) -> List:
@@ -86,7 +86,7 @@ def _assigned_in(listed: List, elements: list[str], value: Entry, key: str) -> L
     if rest and isinstance(node, List):
         node = _assigned_in(node, rest, value, below)
     elif rest:
-        node = _assigned(_mapping(node, below, value.key), rest, value, f"{below}.")
+        node = _with_assigned(_mapping(node, below, value.key), rest, value, f"{below}.")
     else:
         node = value.node
     return List((*listed.items[:number], node, *listed.items[number + 1 :]), listed.location)
@@ -122,25 +122,27 @@ class Override(NamedTuple):
 
 def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, ...]:
     """Read ``--set`` options and the ``--seed`` option. Raises ScenarioErrors with the errors of all."""
-    overrides = read_each(_parse, (Document(COMMAND_LINE, Path(), text) for text in texts))
+    overrides = read_each(_parse_override, (Document(COMMAND_LINE, Path(), text) for text in texts))
     if seed is not None:
         location = Location(Document("--seed", Path(), str(seed)))
         overrides.append(Override("seed", location, (Scalar(seed, str(seed), location),)))
     return tuple(overrides)
 
 
-def _parse(document: Document) -> Override:
+def _parse_override(document: Document) -> Override:
     key, equals, value = document.text.partition("=")
     if not equals or not key.strip():
         hint = "write --set key=value, for example --set rail.friction=0.10"
         raise single_error(Location(document), f"{quoted(document.text)} is not a key and a value", hint=hint)
     values = [
-        node for start, piece in _pieces(value) for node in _values(document, len(key) + 2 + start, piece)
+        node
+        for start, piece in _comma_pieces(value)
+        for node in _parse_values(document, len(key) + 2 + start, piece)
     ]
     return Override(key.strip(), Location(document), tuple(values))
 
 
-def _pieces(text: str) -> Iterator[tuple[int, str]]:
+def _comma_pieces(text: str) -> Iterator[tuple[int, str]]:
     """Split at commas outside brackets and quotes; yield each piece with its offset."""
     start, depth, quote = 0, 0, ""
     for at, char in enumerate(text):
@@ -158,7 +160,7 @@ def _pieces(text: str) -> Iterator[tuple[int, str]]:
     yield start, text[start:]
 
 
-def _values(document: Document, column: int, piece: str) -> Iterator[Node]:
+def _parse_values(document: Document, column: int, piece: str) -> Iterator[Node]:
     location = Location(document, 1, column)
     if not piece.strip():
         raise single_error(location, "an empty value", hint="write null for nothing")
@@ -166,11 +168,11 @@ def _values(document: Document, column: int, piece: str) -> Iterator[Node]:
     if match is None:
         yield parse(document, 1, column, piece)
         return
-    for text in _range(match[1], location):
+    for text in _texts_of_range(match[1], location):
         yield parse(document, 1, column, text)
 
 
-def _range(arguments: str, location: Location) -> list[str]:
+def _texts_of_range(arguments: str, location: Location) -> list[str]:
     """The values of ``range(first,last,step)`` as texts, with the last one where a step lands on it."""
     try:
         first, last, step = map(parse_decimal_quantity, arguments.split(","))
@@ -254,28 +256,28 @@ def changed_alone(before: Map, after: Map) -> Iterator[Diagnostic]:
     friction = after.at("rail", "friction")
     of_command_line = friction is not None and friction.location.document.display == COMMAND_LINE
     if friction is before.at("rail", "friction") and not of_command_line:
-        yield from _conflict(before, after, friction)
+        yield from _friction_conflict(before, after, friction)
 
 
 def overridden_alone(tree: Map, overrides: Sequence[Override]) -> Iterator[Diagnostic]:
     """Yield the overrides of the condition that leave a friction of the file in force, swept or not."""
     if any(sets_friction(override.key) for override in overrides):
         return
-    swept = (each for section in EXPANSION_KEYS[:-1] for each in _frictions(tree.get(section)))
+    swept = (each for section in EXPANSION_KEYS[:-1] for each in _friction_nodes(tree.get(section)))
     friction = next(swept, tree.at("rail", "friction"))
     for override in overrides:
         if override.key.startswith(CONDITION):
             for value in override.values:
                 with suppress(ScenarioErrors):  # reported where it is applied
                     changed = with_value(tree, override.key, Entry(override.location, value))
-                    yield from _conflict(tree, changed, friction)
+                    yield from _friction_conflict(tree, changed, friction)
 
 
-def _conflict(before: Map, after: Map, friction: Node | None) -> Iterator[Diagnostic]:
+def _friction_conflict(before: Map, after: Map, friction: Node | None) -> Iterator[Diagnostic]:
     condition = after.at(*_CONDITION)
     if is_null(friction) or friction is None or condition is None:
         return
-    if _surface(condition) != _surface(before.at(*_CONDITION)):
+    if _name_and_friction(condition) != _name_and_friction(before.at(*_CONDITION)):
         written = friction.location
         yield diagnose(
             condition.location,
@@ -286,22 +288,22 @@ def _conflict(before: Map, after: Map, friction: Node | None) -> Iterator[Diagno
         )
 
 
-def _surface(condition: Node | None) -> tuple[str, str]:
+def _name_and_friction(condition: Node | None) -> tuple[str, str]:
     """Name and friction of a condition; its other numbers hold for any friction."""
     if condition is None:
         return PART_KEYS[_CONDITION].default, ""
     if not isinstance(condition, Map):
         return as_written(condition), ""
-    return _text(condition.get("extends")), _text(condition.get("friction"))
+    return _text_or_empty(condition.get("extends")), _text_or_empty(condition.get("friction"))
 
 
-def _text(node: Node | None) -> str:
+def _text_or_empty(node: Node | None) -> str:
     return "" if node is None else as_written(node)
 
 
-def _frictions(section: Node | None) -> Iterable[Node]:
+def _friction_nodes(section: Node | None) -> Iterable[Node]:
     if isinstance(section, List):
-        return (friction for item in section.items for friction in _frictions(item))
+        return (friction for item in section.items for friction in _friction_nodes(item))
     return (
         [section.entries[FRICTION].node] if isinstance(section, Map) and FRICTION in section.entries else []
     )

@@ -61,12 +61,12 @@ from uictest.plans.scenario.yaml import (
 )
 
 _LARGEST: Final = 65536
-"""Most bytes of a statement; chosen: longer ones are no declarations."""
+"""Most bytes of a statement; chosen: longer ones are not declarations."""
 _NEXT_STATEMENT: Final = re.compile(rb"\n(?=[^\s#)\]}])")
 _TEXTS: Final = rb"""#[^\n]*|(['"]{3})(?:[^\\]|\\.)*?\1|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|"""
 """Comments and texts, in which a name is none."""
 UNPARSABLE: Final = (SyntaxError, ValueError, RecursionError, MemoryError)
-"""What :meth:`PythonText.statements` raises for what is no Python."""
+"""Exceptions of :meth:`PythonText.statements` for a text that is not Python."""
 
 
 class PythonText(NamedTuple):
@@ -163,7 +163,7 @@ def version_stated_for(controller: Map, programs: Iterable[ProgramFile]) -> str:
 
 
 class ProgramText(NamedTuple):
-    """What the file of a program is, the version that it states, and its text or its description.
+    """File of a program: its kind, the version that it states, and its text or description.
 
     A library states nothing: it would have to be loaded.
     """
@@ -203,11 +203,11 @@ LARGEST: Final = 128 * 1024
 _UNSEEN: Final = re.compile(
     rb"\bimport\s*\(?\s*\*|\b(?:global|globals|locals|vars|setattr|exec|eval|modules|__getattr__)\b"
 )
-"""How a module comes by names that its code does not show."""
+"""Ways in which a module gets names that its code does not show."""
 
 
 def require_class(controller: PythonController, tree: Map, files: Files, key: Key) -> None:
-    """Raise ScenarioErrors where the file of a controller is no Python, or cannot have its class.
+    """Raise ScenarioErrors where the file of a controller is not Python, or cannot have its class.
 
     Whether a name that is imported or assigned is that of a class shows in a run.
     """
@@ -243,7 +243,7 @@ def _compiled(path: Path, content: bytes) -> CodeType | None:
 
 Declared = Mapping[str, DeclaredParameter]
 NAME: Final = "PARAMETERS"
-"""What a Python file calls its declarations."""
+"""Names of the declarations in a Python file."""
 _HINT: Final = 'write {"NAME": {"default": 1.0, "unit": "s", "range": [0.0, 2.0]}}'
 _IN_PART: Final = "list them under `declared_parameters` of its part"
 
@@ -296,7 +296,7 @@ def _at_their_locations(
 
 
 def _declared_by_program(controller: ExternalController, files: Files) -> Declared | None:
-    """Return what the text of a program declares; None where only a run can tell."""
+    """Return the parameters that the text of a program declares; None if only running it can tell."""
     if controller.kind == "connect":
         return {}
     if controller.kind == "registered":

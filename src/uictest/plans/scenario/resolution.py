@@ -87,20 +87,20 @@ class Parts:
         full_key = dotted(key)
         if isinstance(node, Map):
             if id(node) not in self._inline:
-                self._inline[id(node)] = (node, self._built(node, model, key, full_key))
+                self._inline[id(node)] = (node, self._built_part(node, model, key, full_key))
             return self._inline[id(node)][1]
         if not isinstance(node, Scalar) or not isinstance(node.value, str):
             message = f"expected a library name, a relative path or a mapping, found {describe(node)}"
             raise single_error(node.location, message, full_key)
         if is_path(node.text):
-            return self._built(self._fetch(node, model, full_key), model, (), full_key)
+            return self._built_part(self._fetch(node, model, full_key), model, (), full_key)
         name = (folder_of(model), node.text)
         known = _LIBRARY_PARTS if node.text in library.names(name[0]) else self._by_name
         if name not in known:
-            known[name] = self._built(self._fetch(node, model, full_key), model, (), full_key)
+            known[name] = self._built_part(self._fetch(node, model, full_key), model, (), full_key)
         return known[name]
 
-    def _built(self, tree: Map, model: Any, key: Key, full_key: str) -> ResolvedPart:
+    def _built_part(self, tree: Map, model: Any, key: Key, full_key: str) -> ResolvedPart:
         generations = [tree]
 
         def fetch(reference: Scalar) -> Map:
@@ -132,7 +132,7 @@ class Parts:
         for tree in generations:
             display = tree.location.document.display
             if display.startswith(LIBRARY):
-                original = part if tree is generations[0] else self._built(tree, model, (), "").part
+                original = part if tree is generations[0] else self._built_part(tree, model, (), "").part
                 return part.with_origin(PurePosixPath(display).stem, original)
         root = generations[-1]
         if root is generations[0]:
@@ -158,7 +158,7 @@ class Parts:
         elif reference.text in library.names(folder):
             tree = read_library(folder, reference.text)
         elif folder == _CONTROLLERS and reference.text in installed_names():
-            return _registered(reference)
+            return _registered_reference(reference)
         else:
             raise _unknown_name(reference, folder, full_key)
         require_schema(tree, f"uictest/{library.FOLDERS[folder]}/1")
@@ -176,7 +176,7 @@ def is_path(reference: str) -> bool:
     return reference.endswith((".yaml", ".yml"))
 
 
-def _registered(reference: Scalar) -> Map:
+def _registered_reference(reference: Scalar) -> Map:
     """Return the controller of an installed package as a part; the package is not imported."""
     name = reference.text
     location = Location(Document(f"installed:{name}", reference.location.document.folder, ""))
@@ -211,17 +211,17 @@ def _reject_changed_sources(parent: Map, merged: Map) -> None:
             )
 
 
-def _references(model: Any, above: Key = ()) -> Iterator[tuple[Key, PartReference]]:
+def _references_of_model(model: Any, above: Key = ()) -> Iterator[tuple[Key, PartReference]]:
     for name, field in model.model_fields.items():
         marks = [mark for mark in field.metadata if isinstance(mark, PartReference)]
         if marks:
             yield (*above, name), marks[0]
             continue
         for inner in models_in(field.annotation):
-            yield from _references(inner, (*above, name))
+            yield from _references_of_model(inner, (*above, name))
 
 
-PART_KEYS: Final = dict(_references(Scenario))
+PART_KEYS: Final = dict(_references_of_model(Scenario))
 """Every key that refers to a part (or, for criteria, to several)."""
 DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 """The same, as a file of a sweep or an option writes them."""
@@ -288,7 +288,7 @@ def _with_validation_path(data: dict[str, Any], tree: Map, files: Files) -> None
 
 
 def _why_no_validation(path: Path) -> str:
-    """What a file is instead of the result of a validation; empty where it is one."""
+    """Kind of a file that is not the result of a validation; empty for one that is."""
     other = "not the result of a validation"
     try:
         form = json.loads(read_document(path, LARGEST, _HINT).text)
@@ -314,7 +314,7 @@ def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
             continue
         mapping = reduce(getitem, above, data)
         try:
-            mapping[last] = _part(parts, key, node, documents)
+            mapping[last] = _resolved_part(parts, key, node, documents)
         except ScenarioErrors as errors:
             diagnostics.extend(errors.diagnostics)
             failed.add(dotted(key))
@@ -331,7 +331,7 @@ def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
     return scenario, tuple(documents)
 
 
-def _part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
+def _resolved_part(parts: Parts, key: Key, node: Node, documents: list[Document]) -> Any:
     reference = PART_KEYS[key]
     nodes = node.items if reference.several and isinstance(node, List) else (node,)
     if not nodes:

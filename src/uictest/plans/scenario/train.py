@@ -83,11 +83,11 @@ class TrainCar(Model):
 
 def is_train(tree: Map) -> bool:
     """Whether the scenario of a tree is that of a train."""
-    return _written(tree, "train") is not None
+    return _entry_at(tree, "train") is not None
 
 
-def _written(tree: Map, key: str) -> Entry | None:
-    """Return what stands at a dotted key, None where that is nothing."""
+def _entry_at(tree: Map, key: str) -> Entry | None:
+    """Return the entry at a dotted key; None if it is missing or null."""
     *above, last = key.split(".")
     node = tree.at(*above)
     entry = node.entries.get(last) if isinstance(node, Map) else None
@@ -101,7 +101,7 @@ def without_inherited_vehicle(tree: Map, documents: Sequence[Document]) -> Map:
         tree: of the scenario, its parents merged in.
         documents: that it came from, the child's first.
     """
-    train, vehicle = _written(tree, "train"), _written(tree, "vehicle")
+    train, vehicle = _entry_at(tree, "train"), _entry_at(tree, "vehicle")
     if train is None or vehicle is None:
         return tree
     return tree.without("vehicle") if is_older(vehicle, train, documents) else tree
@@ -123,7 +123,7 @@ def with_default_vehicles(tree: Map) -> Map:
     default = PART_KEYS["vehicle",].default
     items = (
         item.with_entry("vehicle", Entry(item.location, Scalar(default, default, item.location)))
-        if isinstance(item, Map) and _written(item, "vehicle") is None
+        if isinstance(item, Map) and _entry_at(item, "vehicle") is None
         else item
         for item in train.node.items
     )
@@ -136,7 +136,7 @@ def car_trees(tree: Map) -> list[tuple[Map, int]]:
     The scenario of a car alone is its own only entry. Raises ScenarioErrors.
     """
     if not is_train(tree):
-        found = ((key, entry) for key in _ALONE if (entry := _written(tree, key)) is not None)
+        found = ((key, entry) for key in _ALONE if (entry := _entry_at(tree, key)) is not None)
         diagnostics = [
             diagnose(entry.key, "only a train has it", key, f"leave it out, or {_WRITE}")
             for key, entry in found
@@ -145,7 +145,7 @@ def car_trees(tree: Map) -> list[tuple[Map, int]]:
         return [(tree, 1)]
     node = tree.entries["train"].node
     diagnostics = []
-    if (vehicle := _written(tree, "vehicle")) is not None:
+    if (vehicle := _entry_at(tree, "vehicle")) is not None:
         hint = "leave it out, or write `train: null`; the vehicle of the first cars is train.0.vehicle"
         message = "the cars of a train have vehicles of their own"
         diagnostics.append(diagnose(vehicle.key, message, "vehicle", hint))
@@ -155,7 +155,7 @@ def car_trees(tree: Map) -> list[tuple[Map, int]]:
             [*diagnostics, diagnose(node.location, f"expected a list of cars, found {what}", "train", _WRITE)]
         )
     common = tree.without("train")
-    if _written(common, "coupler") is None:  # results state its numbers, defaults too
+    if _entry_at(common, "coupler") is None:  # results state its numbers, defaults too
         common = common.with_entry("coupler", Entry(tree.entries["train"].key, Map({}, tree.location)))
     cars: list[tuple[Map, int]] = []
     for index, item in enumerate(node.items):
@@ -173,12 +173,12 @@ def _car(common: Map, item: Any, key: str) -> tuple[Map, int]:
     if not isinstance(item, Map):
         raise single_error(item.location, f"expected a mapping, found {describe(item)}", key, _WRITE)
     diagnostics = [
-        _misplaced(name, item.entries[name], key)
+        _misplaced_key(name, item.entries[name], key)
         for name in item.entries
         if name not in TrainCar.model_fields
     ]
-    nested = ((once, _written(item, once)) for once in _ONCE)
-    diagnostics += [_once(once, entry, key) for once, entry in nested if entry is not None]
+    nested = ((once, _entry_at(item, once)) for once in _ONCE)
+    diagnostics += [_only_once_per_train(once, entry, key) for once, entry in nested if entry is not None]
     count = item.entries.get("count")
     number = 1 if count is None else count.node.value if isinstance(count.node, Scalar) else None
     if count is not None and not (
@@ -192,16 +192,16 @@ def _car(common: Map, item: Any, key: str) -> tuple[Map, int]:
     return car, number
 
 
-def _misplaced(name: str, entry: Entry, key: str) -> Diagnostic:
+def _misplaced_key(name: str, entry: Entry, key: str) -> Diagnostic:
     of_scenario = {each.alias or field_name for field_name, each in Scenario.model_fields.items()}
     if name in of_scenario:
-        return _once(name, entry, key)
+        return _only_once_per_train(name, entry, key)
     return diagnose(
         entry.key, f"unknown key {quoted(name)}", f"{key}.{name}", suggestion(name, TrainCar.model_fields)
     )
 
 
-def _once(name: str, entry: Entry, key: str) -> Diagnostic:
+def _only_once_per_train(name: str, entry: Entry, key: str) -> Diagnostic:
     hint = f"write {name} beside `train`; a car has {', '.join(TrainCar.model_fields)} of its own"
     return diagnose(entry.key, f"a train has one {name.rpartition('.')[2]}", f"{key}.{name}", hint)
 
@@ -221,7 +221,7 @@ def require_couplable(cars: Sequence[Scenario], trees: Sequence[Map]) -> None:
 
 
 def coupling_problem(cars: Sequence[Scenario]) -> str:
-    """Return why cars cannot run as one train, empty where they can."""
+    """Return the reason why cars cannot run as one train; empty if they can."""
     problems = (*_foreign_to_trains(cars), *_impossible_couplers(cars))
     return next((f"{dotted(problem.key)}: {problem.message}" for _, problem in problems), "")
 
@@ -243,9 +243,9 @@ def _foreign_to_trains(cars: Sequence[Scenario]) -> Iterator[_CarProblem]:
 
 
 def program_problems(programs: Sequence[ControllerProgram | None]) -> Iterator[_CarProblem]:
-    """Yield the cars whose controllers cannot run beside those of the cars before.
+    """Yield the cars whose controllers cannot run in one process with those of the cars before.
 
-    One process runs all of them: what lies beside one file would take the place of what lies beside another.
+    One process runs all of them: modules in the folder of one program would replace those of another.
     """
     first: dict[str, int] = {}
     addresses: dict[str, int] = {}
@@ -280,15 +280,15 @@ def _impossible_couplers(cars: Sequence[Scenario]) -> Iterator[_CarProblem]:
         share = coupler.largest_steadiness / worst / PERCENT
         hint = f"{share:.2g} % of stiffness and damping are accepted, or a shorter step"
         yield 0, Inconsistency(("coupler",), message, hint)
-    reach = [_reach(car) for car in cars]
+    reach = [_reach_of_wheels(car) for car in cars]
     least = max(map(sum, pairwise(reach)), default=0.0)
     if coupler.distance <= least:
         message = f"{coupler.distance.text} let the wheels of neighbouring cars overlap"
         yield 0, Inconsistency(("coupler", "distance"), message, f"more than {least:.4g} m are accepted")
 
 
-def _reach(car: Scenario) -> float:
-    """Return how far the wheels of a car reach from its centre, m."""
+def _reach_of_wheels(car: Scenario) -> float:
+    """Return the largest distance of a wheel of a car from the car's centre, m."""
     vehicle = car.vehicle
     return float(vehicle.half_pivot_distance + vehicle.bogie.half_wheelbase + max(vehicle.wheel_radii))
 
@@ -324,12 +324,12 @@ def resolved_cars(path: Path, tree: Map, parts: Parts) -> list[ResolvedCar]:
             require_couplable([scenario for (scenario, _), _ in cars], [car for _, car in cars])
     if diagnostics:
         entries = _entry_of_position(tree)
-        raise ScenarioErrors(_named(each, entries) for each in diagnostics)
+        raise ScenarioErrors(_with_entry_number(each, entries) for each in diagnostics)
     return cars
 
 
 def reaching_no_car(tree: Map, given: Mapping[str, Entry]) -> Iterator[Diagnostic]:
-    """Yield what is given to a whole train by dotted key and no car has: each has something else of its own.
+    """Yield dotted keys set for a whole train that take effect in no car, as each car has a value of its own.
 
     Two cases that differ in such a key alone would be the same stop under two names.
     """
@@ -339,8 +339,8 @@ def reaching_no_car(tree: Map, given: Mapping[str, Entry]) -> Iterator[Diagnosti
         head = key.partition(".")[0]
         if not entries or not all(head in item.entries for item in entries):
             continue
-        reached = {location for car, _ in car_trees(tree) for location in _places(car)}
-        if reached.isdisjoint(_places(value.node)):
+        reached = {location for car, _ in car_trees(tree) for location in _locations_within(car)}
+        if reached.isdisjoint(_locations_within(value.node)):
             message = f"every car of the train has a {quoted(head)} of its own"
             yield diagnose(
                 value.node.location, message, key, f"name the car: train.0.{key} is that of the first"
@@ -377,7 +377,7 @@ _Position = tuple[str, int, int]
 """File, line and column."""
 
 
-def _named(diagnostic: Diagnostic, entries: dict[_Position, int]) -> Diagnostic:
+def _with_entry_number(diagnostic: Diagnostic, entries: dict[_Position, int]) -> Diagnostic:
     number = entries.get((diagnostic.file, diagnostic.line, diagnostic.column))
     if number is None or diagnostic.key.partition(".")[0] == "train":
         return diagnostic
@@ -389,17 +389,17 @@ def _entry_of_position(tree: Map) -> dict[_Position, int]:
     train = tree.get("train")
     entries: dict[_Position, int] = {}
     for number, item in enumerate(train.items if isinstance(train, List) else ()):
-        for location in _places(item):
+        for location in _locations_within(item):
             entries.setdefault((visible(location.document.display), location.line, location.column), number)
     return entries
 
 
-def _places(node: Node) -> Iterator[Location]:
+def _locations_within(node: Node) -> Iterator[Location]:
     yield node.location
     if isinstance(node, Map):
         for entry in node.entries.values():
             yield entry.key
-            yield from _places(entry.node)
+            yield from _locations_within(entry.node)
     elif isinstance(node, List):
         for item in node.items:
-            yield from _places(item)
+            yield from _locations_within(item)

@@ -86,12 +86,12 @@ def load_series(
     tree = read_file(path, SERIES_SCHEMA)
     require_schema(tree, SERIES_SCHEMA, hints=_NOT_A_SERIES)
     of_command_line = parse_overrides(overrides, seed)
-    profiles, documents = _criteria(tree, Parts(files))
+    profiles, documents = _resolved_profiles(tree, Parts(files))
     file: SeriesFile = validated(SeriesFile, {**plain(tree), "criteria": profiles}, tree)
     inputs = {each.display: each.sha256 for each in (tree.location.document, *documents) if each.sha256}
     common = [*values_set_by(tree, swept=False)]
     fixed = [each for each in of_command_line if len(each.values) == 1]
-    variants = _variants(tree, of_command_line)
+    variants = _variants_of_file(tree, of_command_line)
     require_few(tree, len(variants))
     settings = [setting for variant in variants for setting in variant]
     labels = controller_labels(settings, Parts(files))
@@ -116,17 +116,17 @@ def load_series(
     return every
 
 
-def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Document, ...]]:
+def _resolved_profiles(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Document, ...]]:
     entry = tree.entries.get("criteria")
     node: Node = Scalar(DEFAULT_CRITERIA, DEFAULT_CRITERIA, tree.location) if entry is None else entry.node
     nodes = node.items if isinstance(node, List) else (node,)
-    resolved = [parts.part(each, Criteria, ("criteria",)) for each in nodes]
-    documents = tuple(document for each in resolved for document in each.documents)
-    return tuple(each.part for each in resolved), documents
+    profiles = [parts.part(node, Criteria, ("criteria",)) for node in nodes]
+    documents = tuple(document for profile in profiles for document in profile.documents)
+    return tuple(profile.part for profile in profiles), documents
 
 
-def _variants(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
-    """Return the values by which the series of a file differ; one variant without any."""
+def _variants_of_file(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
+    """Return the values of each series of a file; one empty variant where nothing varies."""
     for each in of_command_line:
         if len(each.values) == 1:
             tree = without_axis(tree, each.key)
@@ -135,7 +135,13 @@ def _variants(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
 
 
 class PlannedComparison(NamedTuple):
-    """Recorded stops and the case that simulates them; `tuned`: numbers of the case come from them."""
+    """Recorded stops and the case that simulates them.
+
+    Attributes:
+        case: simulates each of the stops.
+        recorded: the recorded stops.
+        tuned: whether numbers of the case were found with these recordings.
+    """
 
     case: Case
     recorded: Recorded
@@ -222,7 +228,7 @@ def load_validation(
     tree = read_file(path, VALIDATION_SCHEMA)
     require_schema(tree, VALIDATION_SCHEMA)
     file: ValidationFile = validated(ValidationFile, plain(tree), tree)
-    comparisons = tuple(_comparisons(tree, file, files, parse_overrides(overrides, None)))
+    comparisons = tuple(_planned_comparisons(tree, file, files, parse_overrides(overrides, None)))
     document = tree.location.document
     inputs = {document.display: document.sha256} if document.sha256 else {}
     for each in comparisons:
@@ -242,7 +248,7 @@ def plan_of_series(planned: Series) -> ValidationPlan:
     )
 
 
-def _comparisons(
+def _planned_comparisons(
     tree: Map, file: ValidationFile, files: Files, overrides: Sequence[Override]
 ) -> Iterator[PlannedComparison]:
     """Yield the comparisons of all entries. Raises ScenarioErrors with the errors of all."""

@@ -200,7 +200,7 @@ class Series:
 
 
 def cases_run_together(planned: Sequence[Series]) -> list[Case]:
-    """Return the cases of the first of some series, and beside each those of other cars of its train."""
+    """Return the cases of the first of some series, each with those of the other cars of its train."""
     of_trains: dict[str, list[Case]] = {}
     for case in planned[0].cases:
         of_trains[case.id if case.train is None else case.train.train] = [case]

@@ -41,7 +41,7 @@ from uictest.plans.series.model import PlannedStop, Recorded, Role, SeriesFile, 
 
 
 def values_set_by(node: Node, *, swept: bool = True) -> Iterator[Override]:
-    """Yield what a file or one of its entries sets: `repeat`, then the keys under `set`.
+    """Yield the values that a file or one of its entries sets: `repeat`, then the keys under `set`.
 
     With `swept`, every key is an axis, so that the ids of its stops name the values. Raises ScenarioErrors
     for an empty list.
@@ -59,7 +59,7 @@ def values_set_by(node: Node, *, swept: bool = True) -> Iterator[Override]:
 
 
 class Stop(NamedTuple):
-    """What one entry of a list of stops names: a scenario, its cases, and recordings of them."""
+    """Contents of one entry of a list of stops: a scenario, its cases, and recordings of them."""
 
     reference: Scalar
     cases: list[Case]
@@ -69,7 +69,7 @@ class Stop(NamedTuple):
 def read_entry(
     node: Node, key: str, files: Files, common: Sequence[Override] = (), last: Sequence[Override] = ()
 ) -> Stop:
-    """Return what an entry names, which may be the reference of a scenario alone. Raises ScenarioErrors.
+    """Return the contents of an entry, which may be just the reference of a scenario. Raises ScenarioErrors.
 
     `common` and `last` are set before and after what the entry sets; errors of the scenario are at `key`.
     """
@@ -88,14 +88,16 @@ def read_entry(
     if any(case.train is not None for case in cases):
         message = f"{quoted(reference.text)} is a train; recordings are of one car"
         raise single_error(reference.location, message, key, "name a scenario with `vehicle`")
-    recorded = Recorded(tuple(_existing(each, files) for each in listed.items), _channel_map(node, files))
+    recorded = Recorded(
+        tuple(_existing_file(each, files) for each in listed.items), _channel_map(node, files)
+    )
     if len(cases) > 1:
         message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
         raise single_error(reference.location, message, key, "give each its own entry, with `set`")
     return Stop(reference, cases, recorded)
 
 
-def _existing(reference: Node, files: Files) -> Path:
+def _existing_file(reference: Node, files: Files) -> Path:
     assert isinstance(reference, Scalar)
     path = files.path_of(reference, "recordings")
     if not is_file(path):
@@ -136,7 +138,7 @@ def require_few(tree: Map, series: int) -> None:
 
 
 class ListedStops(NamedTuple):
-    """What an entry of a list of stops names, and the list that it is in."""
+    """Contents of an entry of a list of stops, and the list that it is in."""
 
     role: Role
     entry: Entry
@@ -146,7 +148,7 @@ class ListedStops(NamedTuple):
 def read_stops(
     tree: Map, file: SeriesFile, files: Files, common: Sequence[Override], last: Sequence[Override]
 ) -> list[ListedStops]:
-    """Return what a series lists, dry stops first. Raises ScenarioErrors with the errors of all entries.
+    """Return the stops of a series, dry stops first. Raises ScenarioErrors with the errors of all entries.
 
     `common` and `last` are set before and after what an entry sets.
     """
@@ -165,7 +167,7 @@ def read_stops(
 
 
 def cars_of(listed: Sequence[ListedStops]) -> int:
-    """Return how many cars the trains of a series have; 0 where its stops are those of a car alone."""
+    """Return the number of cars in the trains of a series; 0 where its stops are those of a car alone."""
     train = listed[0].read.cases[0].train
     return 0 if train is None else len(train.scenarios)
 
@@ -175,19 +177,19 @@ def _of_other_length(listed: Sequence[ListedStops]) -> Iterator[Diagnostic]:
     first = listed[0].read.cases[0]
     for each in listed:
         for case in each.read.cases:
-            if _kind(case) != _kind(first):
-                message = f"{quoted(case.id)} is {_kind(case)}, {quoted(first.id)} {_kind(first)}"
+            if _train_size(case) != _train_size(first):
+                message = f"{quoted(case.id)} is {_train_size(case)}, {quoted(first.id)} {_train_size(first)}"
                 hint = "all stops of a series are of the same train"
                 yield diagnose(each.entry.node.location, message, each.role, hint)
                 break
 
 
-def _kind(case: Case) -> str:
+def _train_size(case: Case) -> str:
     return "a car alone" if case.train is None else f"of a train of {len(case.train.scenarios)}"
 
 
 def _differences_of_trains(dry: Case, wet: Case) -> Iterator[str]:
-    """Yield what must be the same in both stops, for every car of a train, and is not: keys, quoted."""
+    """Yield the quoted keys of values that differ between two stops and must be the same, car by car."""
     for number, (one, other) in enumerate(zip(dry.cars, wet.cars, strict=True), start=1):
         of_car = "" if wet.train is None else f" of car {number}"
         for key in _OF_TRAIN:
@@ -230,7 +232,7 @@ class StopReader(NamedTuple):
             (stop, entry) for stops, (_, entry, _) in zip(of_entries, listed, strict=True) for stop in stops
         ]
         recordings = recorded_twice((stop.recorded, entry.node) for stop, entry in read)
-        require_none((*_unsuitable(read), *_drawn_twice(read), *recordings, *_unmatched(read)))
+        require_none((*_unsuitable_stops(read), *_drawn_twice(read), *recordings, *_unmatched_stops(read)))
         return (*(stop for stop, _ in read), *self._without_wsp([stop for stop, _ in read]))
 
     def _without_wsp(self, stops: Sequence[PlannedStop]) -> Iterator[PlannedStop]:
@@ -262,10 +264,10 @@ class StopReader(NamedTuple):
             if case.train is not None and case.train.number != self.car:
                 continue  # a car alone is meant by any number
             rail: Rail = "uncleaned" if case.scenario.rail.cleaning_in_force is None else "cleaned"
-            own = self._case(case, read.reference)
+            own = self._case_with_profiles(case, read.reference)
             yield PlannedStop(role, own, read.recorded, "" if role == "dry" else rail)
 
-    def _case(self, case: Case, reference: Scalar) -> Case:
+    def _case_with_profiles(self, case: Case, reference: Scalar) -> Case:
         own = {profile.name: profile for profile in case.scenario.criteria}
         for profile in self.criteria:
             if own.get(profile.name, profile) != profile:
@@ -294,8 +296,8 @@ class StopReader(NamedTuple):
         )
 
 
-def _unsuitable(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
-    """Yield what no stop of a series may be: the second of its id, cut short, a dry one on another rail."""
+def _unsuitable_stops(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
+    """Yield stops that a series cannot have: a repeated id, a stop cut short, a dry stop on another rail."""
     seen: set[str] = set()
     for stop, entry in read:
         location, scenario, shown = entry.node.location, stop.case.scenario, quoted(stop.case.id)
@@ -320,21 +322,21 @@ def _drawn_twice(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnost
     for stop, entry in read:
         decisive = [getattr(car.scenario, key) for car in stop.case.cars for key in _DECISIVE]
         earlier = drawn.setdefault((stop.role, repr(decisive)), {})
-        shared = next((seed for seed in _seeds(stop) if seed in earlier), None)
+        shared = next((seed for seed in _seeds_of_stop(stop) if seed in earlier), None)
         if shared is not None:
             message = f"{quoted(stop.case.id)} is {quoted(earlier[shared].case.id)} again with seed {shared}"
             advice = "take other seeds, or a larger `repeat` of one of them"
             yield diagnose(entry.node.location, message, stop.role, advice)
-        earlier |= {seed: stop for seed in _seeds(stop) if seed not in earlier}
+        earlier |= {seed: stop for seed in _seeds_of_stop(stop) if seed not in earlier}
 
 
-def _seeds(stop: PlannedStop) -> range:
+def _seeds_of_stop(stop: PlannedStop) -> range:
     """Return the seeds of a stop; none of a recorded one."""
     scenario = stop.case.scenario
     return range(scenario.seed, scenario.seed + (0 if stop.recorded else scenario.repeat))
 
 
-def _unmatched(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
+def _unmatched_stops(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
     """Yield stops from a speed without its counterpart, and wet stops of another train than the dry ones."""
     first: dict[str, dict[float, Case]] = {"dry": {}, "wet": {}}
     for stop, _ in read:

@@ -46,7 +46,7 @@ def with_values(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
 
     Nothing is validated: the values must be valid, and `inconsistencies` checks their combination.
     """
-    changed: Scenario = _changed(scenario, _Change.of(settings).inner)
+    changed: Scenario = _with_changes(scenario, _Change.of(settings).inner)
     return changed
 
 
@@ -54,7 +54,7 @@ def value_at(scenario: Scenario, key: str) -> Any:
     """Return the value at a dotted key. Raises KeyError for an unknown key."""
     value: Any = scenario
     for element in key.split("."):
-        value = _inner(value, element)
+        value = _value_of_element(value, element)
     return value
 
 
@@ -69,8 +69,8 @@ def is_free(scenario: Scenario, key: str) -> bool:
 
 def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsistency]:
     """Yield the inconsistencies of the scenario and of its models on the way to `keys`."""
-    every = [tuple(key.split(".")) for key in keys]
-    for path in dict.fromkeys(elements[:depth] for elements in every for depth in range(len(elements))):
+    paths = [tuple(key.split(".")) for key in keys]
+    for path in dict.fromkeys(elements[:depth] for elements in paths for depth in range(len(elements))):
         model = value_at(scenario, ".".join(path)) if path else scenario
         if isinstance(model, Model):
             for inconsistency in model.inconsistencies():
@@ -78,14 +78,14 @@ def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsi
 
 
 def train_problem(cars: Sequence[Scenario], keys: Iterable[Iterable[str]]) -> str:
-    """Return why a train cannot run, empty where it can.
+    """Return the reason why a train cannot run; empty where it can.
 
     Args:
         cars: its scenarios.
         keys: of the changed values of each car.
     """
-    for car, own in zip(cars, keys, strict=True):
-        for problem in inconsistencies(car, own):
+    for car, changed_keys in zip(cars, keys, strict=True):
+        for problem in inconsistencies(car, changed_keys):
             return f"{dotted(problem.key)}: {problem.message}"
     return coupling_problem(cars)
 
@@ -95,7 +95,7 @@ _UNCHANGED: Final = object()
 
 @dataclass(slots=True)
 class _Change:
-    """What a part of a scenario is replaced by, if it is, and what is then changed in it."""
+    """A new value of a part of a scenario, or none, and the changes within it."""
 
     value: Any = _UNCHANGED
     inner: dict[str, _Change] = field(default_factory=dict)
@@ -111,30 +111,32 @@ class _Change:
         return whole
 
 
-def _changed(model: Any, changes: Mapping[str, _Change]) -> Any:
-    """Return a model with changes; each model on the way is copied once, however many of its values do."""
+def _with_changes(model: Any, changes: Mapping[str, _Change]) -> Any:
+    """Return a model with changes; each model on the way is copied once, whatever number of values change."""
     if not changes:
         return model
     if isinstance(model, tuple) and (named := {k: v for k, v in changes.items() if not k.isdecimal()}):
-        model = (_changed(model[0], named),)  # the one entry, written without a list
+        model = (_with_changes(model[0], named),)  # the one entry, written without a list
         changes = {k: v for k, v in changes.items() if k not in named}
     inner = {
-        element: _changed(_inner(model, element) if each.value is _UNCHANGED else each.value, each.inner)
-        for element, each in changes.items()
+        element: _with_changes(
+            _value_of_element(model, element) if change.value is _UNCHANGED else change.value, change.inner
+        )
+        for element, change in changes.items()
     }
     if isinstance(model, tuple):
-        places = {int(element): value for element, value in inner.items()}
-        return tuple(places.get(index, each) for index, each in enumerate(model))
+        changed_items = {int(element): value for element, value in inner.items()}
+        return tuple(changed_items.get(index, item) for index, item in enumerate(model))
     return {**model, **inner} if isinstance(model, dict) else model.model_copy(update=inner)
 
 
-def _inner(value: Any, element: str) -> Any:
+def _value_of_element(value: Any, element: str) -> Any:
     if isinstance(value, dict):
         return value[element]
     if isinstance(value, tuple) and element.isdecimal() and int(element) < len(value):
         return value[int(element)]
     if isinstance(value, tuple) and not element.isdecimal() and len(value) == 1:
-        return _inner(value[0], element)  # one entry may be written without a list
+        return _value_of_element(value[0], element)  # one entry may be written without a list
     if isinstance(value, Model) and element in type(value).model_fields:
         return getattr(value, element)
     raise KeyError(element)
@@ -154,7 +156,7 @@ class BaseCase(NamedTuple):
     parts: Parts
 
     def contents(self, settings: Mapping[str, Entry]) -> tuple[dict[str, Any], tuple[Document, ...]]:
-        """Return what the scenario has at dotted keys with other values there, and the documents read for it.
+        """Return the values at dotted keys once `settings` are applied, and the documents read for them.
 
         Raises ScenarioErrors as if the scenario's file had said so, and where a key of a train does not give
         all cars that it reaches the same.
@@ -222,13 +224,13 @@ REGULAR_STEP: Final[Quantity] = default("0.5 ms", "time")
 
 
 def survey_on_command_line(overrides: Sequence[Override]) -> Location | None:
-    """Return where the command line asks for the survey step: by the last value of the time step there."""
-    given = [override for override in overrides if override.key == TIME_STEP]
-    return _location_of_survey(given[-1].values) if given else None
+    """Return the location of the survey step on the command line; None unless the last time step is that."""
+    time_steps = [override for override in overrides if override.key == TIME_STEP]
+    return _location_of_survey(time_steps[-1].values) if time_steps else None
 
 
 def survey_in_lists(lists: Node | None) -> Location | None:
-    """Return where the lists of a sweep ask for the survey step: by it alone as the time step."""
+    """Return the location of the survey step in the lists of a sweep; None unless it is the one time step."""
     values = lists.get(TIME_STEP) if isinstance(lists, Map) else None
     return _location_of_survey(values.items) if isinstance(values, List) else None
 

@@ -134,7 +134,7 @@ def drawn_column(numbers: NDArray[np.float64], unit: str, kind: str) -> Column:
 
 
 def content_of(text: str, kind: str) -> Any:
-    """Return what a scenario holds where it says `text`: a quantity of a kind, or a plain number."""
+    """Return the value of `text` in a scenario: a quantity of a kind, or a plain number."""
     return parse_quantity(text, kind) if kind else scalar_value(text)
 
 
@@ -150,7 +150,7 @@ _REASONS: Final[Mapping[Prior, str]] = {
     "uniform": "No value in the range is preferred",
     "log-uniform": "The order of magnitude is known: half and twice a value are as likely",
 }
-"""Why a number has its prior where no source says so: it stands in a scenario."""
+"""Reason for the prior of a number without a source: it is set in a scenario."""
 
 
 @dataclass(frozen=True)

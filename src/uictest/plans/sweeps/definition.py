@@ -165,7 +165,7 @@ def load_sweep(
         if file.base.case.train is not None:
             raise single_error(survey, "what the survey step does to trains is not known", TIME_STEP)
     reader = GroupReader(file.base, file.vary.ranges or {})
-    groups = _groups(file, sections, [each for each in parsed if len(each.values) > 1], reader)
+    groups = _groups_of_sections(file, sections, [each for each in parsed if len(each.values) > 1], reader)
     keys = [key for group in groups for key in group.keys]
     if survey is not None:
         reject_other_steps(keys, survey)
@@ -195,16 +195,16 @@ _Axis = tuple[str, Mapping[str, Entry]]
 """A section, and the lists in it that change together, or the range of one key, as written."""
 
 
-def _groups(
+def _groups_of_sections(
     file: SweepFile, sections: Map, swept: Sequence[Override], reader: GroupReader
 ) -> tuple[Group, ...]:
     """Return the groups in order: those of the command line, lists, ranges, zip, sample.
 
     `sections` are what the command line leaves of the file. Raises ScenarioErrors.
     """
-    axes = [*_axes(sections, swept)]
+    axes = [*_axes_of_sections(sections, swept)]
     sample, requested = sections.get("sample"), file.vary.sample
-    drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
+    drawn = dict(_entries_of_section(sample, "parameters")) if isinstance(sample, Map) else {}
     diagnostics = [*_bad_keys(file, sections, [*axes, ("vary.sample", drawn)])]
     require_none(diagnostics)
     if requested is not None:
@@ -232,13 +232,13 @@ def _groups(
     return complete
 
 
-def _axes(sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
+def _axes_of_sections(sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
     for each in swept:
         yield "--set", {each.key: Entry(each.location, List(each.values, each.location))}
     for section in ("matrix", "ranges"):
-        for key, entry in _entries(sections, section):
+        for key, entry in _entries_of_section(sections, section):
             yield f"vary.{section}", {key: entry}
-    if zipped := dict(_entries(sections, "zip")):
+    if zipped := dict(_entries_of_section(sections, "zip")):
         yield "vary.zip", zipped
 
 
@@ -302,7 +302,7 @@ def _without_entries(tree: Map, section: str, keys: set[str]) -> Map:
     return tree.with_entry(section, Entry(entry.key, entry.node.without(*keys)))
 
 
-def _entries(tree: Map, section: str) -> Iterator[tuple[str, Entry]]:
+def _entries_of_section(tree: Map, section: str) -> Iterator[tuple[str, Entry]]:
     node = tree.get(section)
     if isinstance(node, Map):
         yield from node.entries.items()

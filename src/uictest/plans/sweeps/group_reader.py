@@ -58,7 +58,7 @@ class GroupReader:
         self._labels: dict[int, str] = {}
 
     def count(self, entries: Mapping[str, Entry], section: str) -> int:
-        """Return how many values each key of a section has, without making those of a range."""
+        """Return the number of values of each key of a section, without making those of a range."""
         key, entry = next(iter(entries.items()))
         return self._ranges[key].size if section == OF_RANGES else len(items_of(entry.node))
 
@@ -175,7 +175,7 @@ class GroupReader:
         self, rows: Sequence[_Row], column: _Column, name_of: Callable[[ParameterValue], str], hint: str
     ) -> None:
         key, entry, _ = column
-        repeated = list(_repeated(rows, name_of))
+        repeated = list(_repeated_names(rows, name_of))
         if repeated:
             message = f"{quoted(', '.join(value.text for value in repeated[0]))} is there twice"
             self._report([diagnose(entry.key, message, key, hint)], len(repeated) - 1, len(rows))
@@ -185,11 +185,11 @@ class GroupReader:
         if distribution.choice is not None:
             listed, _ = entry_at(entry.node, ("choice",))
             return ParameterDraw(distribution, choices=self._choices(key, Entry(entry.key, listed.node)))
-        for text, node in _bounds(distribution, entry.node):
+        for text, node in _bounds_of_distribution(distribution, entry.node):
             self._row({key: Entry(entry.key, _scalar(text, node))}, 1)
         unit = common_unit(distribution.quantities)
         assert unit is not None
-        kind = self._kind(key, entry, unit)
+        kind = self._kind_of_unit(key, entry, unit)
         return ParameterDraw(distribution, unit, kind)
 
     def _choices(self, key: str, entry: Entry) -> tuple[ParameterValue, ...]:
@@ -200,13 +200,13 @@ class GroupReader:
             raise ScenarioErrors(())  # reported already
         return tuple(value for (value,) in rows)
 
-    def _kind(self, key: str, entry: Entry, unit: str) -> str:
+    def _kind_of_unit(self, key: str, entry: Entry, unit: str) -> str:
         """Return the kind of quantity that is drawn, empty for plain numbers. Raises ScenarioErrors."""
         location = self._base.place_of(key)
         if is_free(*location) and not unit:
             return ""
         field = quantity_field(*location)
-        physical = None if field is None else _physical(field)
+        physical = None if field is None else _quantity_field(field)
         if physical is None or physical.kind.name == "count":
             raise single_error(
                 entry.key,
@@ -247,22 +247,22 @@ def quantity_field(scenario: Any, key: str) -> Any:
     if field is None:
         return None
     annotation = Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
-    return None if _physical(annotation) is None else annotation
+    return None if _quantity_field(annotation) is None else annotation
 
 
-def _physical(annotation: Any) -> QuantityField | None:
+def _quantity_field(annotation: Any) -> QuantityField | None:
     if isinstance(annotation, QuantityField):
         return annotation
     if isinstance(annotation, type) and issubclass(annotation, Model):
         return None  # the quantities inside a mapping are not the field itself
     for inner in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
-        physical = _physical(inner)
+        physical = _quantity_field(inner)
         if physical is not None:
             return physical
     return None
 
 
-def _repeated(rows: Iterable[_Row], name_of: Callable[[ParameterValue], str]) -> Iterator[_Row]:
+def _repeated_names(rows: Iterable[_Row], name_of: Callable[[ParameterValue], str]) -> Iterator[_Row]:
     seen: set[tuple[str, ...]] = set()
     for row in rows:
         names = tuple(map(name_of, row))
@@ -271,7 +271,7 @@ def _repeated(rows: Iterable[_Row], name_of: Callable[[ParameterValue], str]) ->
         seen.add(names)
 
 
-def _bounds(distribution: Distribution, node: Node) -> Iterator[tuple[str, Node]]:
+def _bounds_of_distribution(distribution: Distribution, node: Node) -> Iterator[tuple[str, Node]]:
     quantities = distribution.quantities
     name = "log-uniform" if distribution.log_uniform else distribution.form
     for quantity, index in ((quantities[0], 0), (quantities[-1], len(quantities) - 1)):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     Numbers = NDArray[np.int64]
 
 _OF_CAR: Final = re.compile(rf",{CAR}=\d+\]$")
-"""What tells the id of a car from that of its train."""
+"""Suffix that distinguishes the id of a car from that of its train."""
 
 
 @dataclass(frozen=True)
@@ -269,7 +269,7 @@ class DrawnRange(NamedTuple):
         lies = "lies inside" if self.contains_nominal else "lies OUTSIDE"
         return (
             f"{self.key}: the scenario's own {self.nominal.text} {lies} the range"
-            f" {_shown(self.low)} .. {_shown(self.high)}"
+            f" {_quantity_for_people(self.low)} .. {_quantity_for_people(self.high)}"
         )
 
 
@@ -292,7 +292,7 @@ def _nominal_value(scenario: Scenario, key: str) -> Any:
     return value
 
 
-def _shown(quantity: Quantity) -> str:
+def _quantity_for_people(quantity: Quantity) -> str:
     number, _, unit = quantity.text.partition(" ")
     return f"{float(number):g} {unit}".rstrip()
 
@@ -314,7 +314,7 @@ def each_controller(plan: Plan) -> Iterator[Any]:
 
 
 def programs_of(plan: Plan) -> Iterator[ControllerProgram]:
-    """Yield the program of each controller from outside, with the parameters that are written beside it."""
+    """Yield the program of each controller from outside, with the parameters written with it."""
     for controller in each_controller(plan):
         if controller.program is not None:
             yield controller.program

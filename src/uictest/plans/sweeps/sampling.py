@@ -128,7 +128,7 @@ def quantile(distribution: Distribution) -> Quantile:
     numbers = [float(quantity.number) for quantity in quantities]
     if distribution.log_uniform is not None:
         return log_uniform(*numbers)
-    return _triangular(*numbers) if distribution.triangular is not None else uniform(*numbers)
+    return _triangular_quantile(*numbers) if distribution.triangular is not None else uniform(*numbers)
 
 
 def uniform(low: float, high: float) -> Quantile:
@@ -141,7 +141,7 @@ def log_uniform(low: float, high: float) -> Quantile:
     return lambda probabilities: np.clip(low * np.exp(probabilities * math.log(high / low)), low, high)
 
 
-def _triangular(low: float, mode: float, high: float) -> Quantile:
+def _triangular_quantile(low: float, mode: float, high: float) -> Quantile:
     span, below = high - low, mode - low
 
     def at(probabilities: Probabilities) -> NDArray[np.float64]:
@@ -221,7 +221,7 @@ class RoundedNumbers:
         import pyarrow.compute as pc
 
         is_exact = ~np.isnan(self.digits)
-        texts = _texts(np.where(is_exact, self.digits, 0.0), self.places)
+        texts = _decimal_texts(np.where(is_exact, self.digits, 0.0), self.places)
         if is_exact.all():
             return texts
         by_hand = [rounded_text(number) for number in self.numbers[~is_exact].tolist()]
@@ -253,7 +253,7 @@ def rounded_numbers(numbers: NDArray[np.float64]) -> RoundedNumbers:
     return RoundedNumbers(numbers, digits, places)
 
 
-def _texts(digits: NDArray[np.float64], places: NDArray[np.int64]) -> pa.Array:
+def _decimal_texts(digits: NDArray[np.float64], places: NDArray[np.int64]) -> pa.Array:
     """Return the texts of `digits / 10**places`; zeros that call for an exponent are put in afterwards."""
     import pyarrow as pa
     import pyarrow.compute as pc

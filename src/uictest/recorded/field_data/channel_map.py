@@ -62,11 +62,11 @@ _PRESETS: Final = Path(library.__file__).parent / "channel_maps"
 Trigger = Literal["auto", "stated", "start", "command", "demand", "pressure"]
 
 
-def _shorthand(value: object) -> object:
+def _source_of_shorthand(value: object) -> object:
     return {"source": value} if isinstance(value, str | tuple) else value
 
 
-def _several(value: object) -> object:
+def _as_list(value: object) -> object:
     return (value,) if isinstance(value, str) else value
 
 
@@ -84,7 +84,7 @@ def _with_short_names(schema: dict[str, Any]) -> None:
 class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
-    source: Annotated[tuple[str, ...], BeforeValidator(_several, json_schema_input_type=_NameOrNames)] = (
+    source: Annotated[tuple[str, ...], BeforeValidator(_as_list, json_schema_input_type=_NameOrNames)] = (
         field(
             "Name in the file, or a list of names: the first one present is used; also group/name. Of `time`,"
             " columns of a date and a clock.",
@@ -104,7 +104,7 @@ class ChannelSource(Model):
     )
 
 
-def _inconsistencies(key: tuple[str, ...], source: ChannelSource) -> Iterator[Inconsistency]:
+def _unit_inconsistencies(key: tuple[str, ...], source: ChannelSource) -> Iterator[Inconsistency]:
     name = key[-1]
     of_first = name.replace(NUMBER, str(WHEELSETS[0]))
     if of_first not in CHANNEL_UNITS:
@@ -211,10 +211,10 @@ class ChannelMap(Model):
     schema_id: Literal["uictest/channel-map/1"] = field("What the file holds.", alias="schema")
     name: str = field("Name of the map.", pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")
     title: str = field("One line for people.", default="", max_length=200)
-    time: Annotated[ChannelSource, BeforeValidator(_shorthand)] | None = optional(
+    time: Annotated[ChannelSource, BeforeValidator(_source_of_shorthand)] | None = optional(
         "Where the time comes from; in place of `time` among the channels."
     )
-    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)] | None] = field(
+    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_source_of_shorthand)] | None] = field(
         "Canonical channel -> where it comes from; {n} stands for each wheelset's number. null: it is not"
         " read, though the map that is extended has it."
     )
@@ -224,13 +224,16 @@ class ChannelMap(Model):
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield unknown channels, and units of another kind than their channel."""
         if self.time is not None:
-            yield from _inconsistencies((TIME,), self.time)
+            yield from _unit_inconsistencies((TIME,), self.time)
         for name, source in self.channels.items():
-            yield from _inconsistencies(("channels", name), source or _NOT_READ)
+            yield from _unit_inconsistencies(("channels", name), source or _NOT_READ)
 
     @property
     def dialect(self) -> Dialect:
-        """The dialect of text files."""
+        """The dialect of text files: of ``csv`` all but `dates`, which a channel map alone knows.
+
+        A dialect says how cells are split and numbers written; `dates` is used later, for the time channel.
+        """
         return Dialect(**{name: value for name, value in self.csv if name != "dates"})
 
     @cached_property
@@ -239,7 +242,9 @@ class ChannelMap(Model):
         spelled_out: dict[str, ChannelSource | None] = {}
         for name, source in self.channels.items():
             numbers = WHEELSETS if NUMBER in name else ()
-            spelled_out |= {name.replace(NUMBER, str(n)): source and _numbered(source, n) for n in numbers}
+            spelled_out |= {
+                name.replace(NUMBER, str(n)): source and _source_of_wheelset(source, n) for n in numbers
+            }
         spelled_out |= {name: s for name, s in self.channels.items() if NUMBER not in name}
         spelled_out |= {TIME: self.time} if self.time else {}
         return {name: source for name, source in spelled_out.items() if source is not None}
@@ -276,7 +281,7 @@ def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, 
     else:
         raise KeyError(reference)
     files = Files(Roots.of([Path(reference)], trusted))
-    merged, documents = inherit(tree, fetch=lambda parent: _parent(parent, files))
+    merged, documents = inherit(tree, fetch=lambda parent: _read_parent(parent, files))
     loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
     inputs = {
         document.display
@@ -287,7 +292,7 @@ def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, 
     return loaded, inputs
 
 
-def _parent(reference: Scalar, files: Files) -> Map:
+def _read_parent(reference: Scalar, files: Files) -> Map:
     if reference.text in presets():
         return read_file(_PRESETS / f"{reference.text}.yaml")
     if not is_path(reference.text):
@@ -296,7 +301,7 @@ def _parent(reference: Scalar, files: Files) -> Map:
     return files.beside(reference, "extends")
 
 
-def _numbered(source: ChannelSource, number: int) -> ChannelSource:
+def _source_of_wheelset(source: ChannelSource, number: int) -> ChannelSource:
     names: tuple[str, ...] = tuple(name.replace(NUMBER, str(number)) for name in source.source)
     changed: dict[str, Any] = {"source": names}
     return source.model_copy(update=changed)

@@ -37,14 +37,14 @@ DefectKind = Literal[
 class Defect:
     """One defect of one channel.
 
-    `spoils`: the channel cannot be used at all. A gap or a missing sample affects only the measures that need
-    the missing samples.
+    `makes_unusable`: the channel cannot be used at all. A gap or a missing sample affects only the measures
+    that need the missing samples.
     """
 
     kind: DefectKind
     channel: str
     text: str
-    spoils: bool = False
+    makes_unusable: bool = False
 
     def __str__(self) -> str:
         """Return the defect for a reader, as in "gap: speed is not recorded from 3.2 to 3.9 s"."""
@@ -59,12 +59,12 @@ _COARSEST = 0.25
 
 
 def disorder(time: Array, names: str) -> Iterator[Defect]:
-    """Yield missing, backwards and repeated times; each kind once, with its first place."""
+    """Yield missing, backwards and repeated times; each kind once, with its first sample."""
     missing = ~np.isfinite(time)
     if missing.any():
         first = int(np.argmax(missing)) + 1
         yield Defect(
-            "time-missing", names, f"has {_counted(missing)} without a time, first at sample {first}", True
+            "time-missing", names, f"has {_share_text(missing)} without a time, first at sample {first}", True
         )
     with np.errstate(invalid="ignore"):
         step = np.diff(time)
@@ -88,9 +88,9 @@ def disorder(time: Array, names: str) -> Iterator[Defect]:
             yield Defect(kind, names, text, True)  # type: ignore[arg-type]
 
 
-def gap_defects(time: Array, names: str, raster: float) -> Iterator[Defect]:
+def gap_defects(time: Array, names: str, grid_interval: float) -> Iterator[Defect]:
     """Yield the gaps of a time axis as one defect."""
-    starts = np.flatnonzero(gaps(time, raster))
+    starts = np.flatnonzero(gaps(time, grid_interval))
     listed = ", ".join(f"{time[k]:.6g} to {time[k + 1]:.6g} s" for k in starts[:3])
     more = f" and {len(starts) - 3} more" if len(starts) > 3 else ""
     if len(starts):
@@ -122,7 +122,7 @@ def coarse_defects(interval: float, names: str) -> Iterator[Defect]:
 
 
 def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
-    """Return a channel with NaN for samples that are implausibly large or no state, and the defect."""
+    """Return a channel with NaN for samples that are implausibly large or not a state, and the defect."""
     si = CHANNEL_UNITS[channel.name]
     states = sorted(states_of(channel.name).values())
     wrong = beyond(channel.samples, si)
@@ -133,7 +133,7 @@ def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
     first, last = channel.time[wrong][[0, -1]]
     limit = f"that are none of the states {', '.join(map(str, states))}" if states else ""
     limit = limit or f"beyond {LARGEST[si].text}"
-    text = f"has {_counted(wrong)} {limit}, from {first:.6g} to {last:.6g} s"
+    text = f"has {_share_text(wrong)} {limit}, from {first:.6g} to {last:.6g} s"
     samples = np.where(wrong, np.nan, channel.samples)
     return replace(channel, samples=samples), [Defect("out-of-range", channel.name, text)]
 
@@ -143,11 +143,11 @@ def missing_samples(channel: RawChannel) -> Iterator[Defect]:
     missing = ~np.isfinite(channel.samples)
     if missing.any():
         first, last = channel.time[missing][[0, -1]]
-        text = f"has {_counted(missing)} that are not numbers, from {first:.6g} to {last:.6g} s"
+        text = f"has {_share_text(missing)} that are not numbers, from {first:.6g} to {last:.6g} s"
         yield Defect("not-a-number", channel.name, text)
 
 
-def _counted(flagged: NDArray[np.bool_]) -> str:
+def _share_text(flagged: NDArray[np.bool_]) -> str:
     return f"{int(flagged.sum())} of {len(flagged)} samples"
 
 
@@ -169,8 +169,8 @@ _ROLLING = 0.2
 """s after the brake command in which wheels still roll; chosen."""
 _DISTANCE_SHARE, _LEAST_DISTANCE = 0.1, 10.0
 """Share of the distance, and m: wheel diameters and slides of the wheel measured explain no more; chosen."""
-_TOLD_SHARE, _LEAST_TOLD = 0.02, 1.0
-"""The same from which it is told: a speed of wheels that slide differs so; chosen."""
+_REPORTED_SHARE, _LEAST_REPORTED = 0.02, 1.0
+"""The same limits from which it is reported: a speed of wheels that slide differs so; chosen."""
 _SPEEDS = ("speed", *of_wheelsets("wheel_speed"))
 _LARGEST_READING_OFFSET: Final = MappingProxyType(
     {
@@ -188,18 +188,18 @@ _LEAST_CHANGE = 0.1
 
 def speed_defects(channels: Mapping[str, RawChannel], begin: float, end: float) -> Iterator[Defect]:
     """Yield the defects of train and wheel speeds in a stop from `begin` to `end` (s in the file's time)."""
-    yield from _sudden_standstill(channels["speed"], begin, end)
+    yield from _sudden_standstill_defects(channels["speed"], begin, end)
     for name in _SPEEDS:
         if name in channels:
-            yield from _dropouts(
+            yield from _dropout_defects(
                 channels[name], begin, end, _STEEPEST if name != "speed" else _STEEPEST_TRAIN
             )
-            yield from _stuck_speeds(channels[name], channels, begin, end)
-    yield from _speed_offsets(channels, begin)
+            yield from _stuck_speed_defects(channels[name], channels, begin, end)
+    yield from _speed_offset_defects(channels, begin)
 
 
-def _sudden_standstill(speed: RawChannel, begin: float, end: float) -> Iterator[Defect]:
-    """A fall to the standstill at `end`, steeper than any wheelset can turn: the train did not stop."""
+def _sudden_standstill_defects(speed: RawChannel, begin: float, end: float) -> Iterator[Defect]:
+    """Yield a fall to zero at `end` that is steeper than any wheelset can turn: the train did not stop."""
     known = np.isfinite(speed.samples) & (speed.time >= begin)
     time, samples = speed.time[known], speed.samples[known]
     rest = int(np.searchsorted(time, end))
@@ -211,12 +211,12 @@ def _sudden_standstill(speed: RawChannel, begin: float, end: float) -> Iterator[
             f"falls at once from {samples[rest - 1]:.4g} to {samples[rest]:.4g} m/s at {time[rest]:.6g} s,"
             " where it is taken for the standstill"
         )
-        yield Defect("dropout", speed.name, text, spoils=True)
+        yield Defect("dropout", speed.name, text, makes_unusable=True)
 
 
-def _dropouts(channel: RawChannel, begin: float, end: float, steepest: float) -> Iterator[Defect]:
-    """A fall and a return, or a rise and a return, both steeper than `steepest`, m/s2."""
-    time, speed = _part(channel, begin, end)
+def _dropout_defects(channel: RawChannel, begin: float, end: float, steepest: float) -> Iterator[Defect]:
+    """Yield a fall and a return, or a rise and a return, both steeper than `steepest`, m/s2."""
+    time, speed = _finite_samples_between(channel, begin, end)
     if len(time) < 3:
         return
     change, interval = np.diff(speed), np.diff(time)
@@ -228,26 +228,26 @@ def _dropouts(channel: RawChannel, begin: float, end: float, steepest: float) ->
         first, last = time[begins[0] + 1], time[max(ends[-1], begins[0] + 1)]
         word = "falls" if fell else "rises"
         text = f"{word} and returns at once, {len(begins)} times from {first:.6g} to {last:.6g} s"
-        yield Defect("dropout" if fell else "spike", channel.name, text, spoils=True)
+        yield Defect("dropout" if fell else "spike", channel.name, text, makes_unusable=True)
 
 
-def _stuck_speeds(
+def _stuck_speed_defects(
     channel: RawChannel, channels: Mapping[str, RawChannel], begin: float, end: float
 ) -> Iterator[Defect]:
-    """The same number for long while another speed changes. A wheelset at zero is locked, not stuck."""
-    time, speed = _part(channel, begin, end)
+    """Yield a constant speed while another one changes. A wheelset at zero is locked, not stuck."""
+    time, speed = _finite_samples_between(channel, begin, end)
     steps = np.abs(np.diff(speed))
     step = float(np.min(steps, where=steps > 0.0, initial=_TELLING_CHANGE))
     longest = _LONGEST_STUCK + step / _SLOWEST_TURN
-    for first, last in _same(speed):
+    for first, last in _runs_of_equal_samples(speed):
         long = time[last] - time[first] > longest and abs(speed[first]) > 0.0
-        if long and _others_change(channel, channels, float(time[first]), float(time[last])):
+        if long and _another_speed_changes(channel, channels, float(time[first]), float(time[last])):
             text = f"stays at {speed[first]:.6g} m/s from {time[first]:.6g} to {time[last]:.6g} s"
-            yield Defect("stuck", channel.name, text, spoils=True)
+            yield Defect("stuck", channel.name, text, makes_unusable=True)
             return
 
 
-def _same(samples: Array) -> Iterator[tuple[int, int]]:
+def _runs_of_equal_samples(samples: Array) -> Iterator[tuple[int, int]]:
     """Yield first and last index of every run of equal samples."""
     edges = np.flatnonzero(np.diff(samples) != 0.0)
     starts = [0, *(int(edge) + 1 for edge in edges)]
@@ -255,19 +255,19 @@ def _same(samples: Array) -> Iterator[tuple[int, int]]:
     yield from ((start, end) for start, end in zip(starts, ends, strict=True) if end > start)
 
 
-def _others_change(
+def _another_speed_changes(
     channel: RawChannel, channels: Mapping[str, RawChannel], first: float, last: float
 ) -> bool:
     for name in _SPEEDS:
         if name in channels and name != channel.name:
-            _, speed = _part(channels[name], first, last)
+            _, speed = _finite_samples_between(channels[name], first, last)
             if len(speed) > 1 and np.ptp(speed) > _TELLING_CHANGE:
                 return True
     return False
 
 
-def _speed_offsets(channels: Mapping[str, RawChannel], begin: float) -> Iterator[Defect]:
-    """A wheel speed that differs from the train's while the wheels still roll; all alike: the train's."""
+def _speed_offset_defects(channels: Mapping[str, RawChannel], begin: float) -> Iterator[Defect]:
+    """Yield wheel speeds that are off while the wheels still roll; the train speed if all are off alike."""
     shares = dict(_rolling_shares(channels, begin))
     off = {name: share for name, share in shares.items() if abs(share) > _LARGEST_SPEED_OFFSET}
     if len(off) > 1 and len(off) == len(shares) and np.ptp(list(off.values())) < _LARGEST_SPEED_OFFSET:
@@ -287,7 +287,7 @@ def _rolling_shares(channels: Mapping[str, RawChannel], begin: float) -> Iterato
     for name in of_wheelsets("wheel_speed"):
         if name not in channels:
             continue
-        time, speed = _part(channels[name], begin - 1.0, begin + _ROLLING)
+        time, speed = _finite_samples_between(channels[name], begin - 1.0, begin + _ROLLING)
         running = at_instants(train.time, train.samples, time, holds=False)
         known = np.isfinite(running) & (running > 1.0)
         if known.any():
@@ -295,25 +295,25 @@ def _rolling_shares(channels: Mapping[str, RawChannel], begin: float) -> Iterato
 
 
 def distance_defects(
-    channels: Mapping[str, RawChannel], begin: float, end: float, raster: float
+    channels: Mapping[str, RawChannel], begin: float, end: float, grid_interval: float
 ) -> Iterator[Defect]:
-    """Yield where the recorded distance is not what the train speed makes from `begin` to `end`, s."""
+    """Yield a recorded distance that differs from the integral of the speed from `begin` to `end`, s."""
     if "distance" not in channels:
         return
     ends = np.array([begin, end])
     recorded, made = (
         float(np.diff(np.interp(ends, channel.time, channel.samples))[0])
-        for channel in (channels["distance"], integrated(channels["speed"], raster, begin))
+        for channel in (channels["distance"], integrated(channels["speed"], grid_interval, begin))
     )
-    if (difference := abs(recorded - made)) > max(_TOLD_SHARE * made, _LEAST_TOLD):
+    if (difference := abs(recorded - made)) > max(_REPORTED_SHARE * made, _LEAST_REPORTED):
         text = f"grows by {recorded:.5g} m in the stop; by its speed the train runs {made:.5g} m"
-        spoils = difference > max(_DISTANCE_SHARE * made, _LEAST_DISTANCE)
+        makes_unusable = difference > max(_DISTANCE_SHARE * made, _LEAST_DISTANCE)
         remedy = "; to integrate the speed instead, write channels: {distance: null} in the channel map"
-        yield Defect("contradiction", "distance", text + remedy if spoils else text, spoils)
+        yield Defect("contradiction", "distance", text + remedy if makes_unusable else text, makes_unusable)
 
 
-def _part(channel: RawChannel, begin: float, end: float) -> tuple[Array, Array]:
-    """Return times and samples between two times, as far as the samples are numbers."""
+def _finite_samples_between(channel: RawChannel, begin: float, end: float) -> tuple[Array, Array]:
+    """Return times and samples from `begin` to `end`, s, without samples that are not finite."""
     inside = (channel.time >= begin) & (channel.time <= end) & np.isfinite(channel.samples)
     return channel.time[inside], channel.samples[inside]
 
@@ -323,25 +323,27 @@ def analogue_defects(channels: Mapping[str, RawChannel], begin: float, end: floa
     for kind, (largest, unit) in _LARGEST_READING_OFFSET.items():
         names = [name for name in of_wheelsets(kind) if name in channels]
         for name in names:
-            yield from _reading_offset(channels[name], begin, largest, unit)
-            others = [channels[other] for other in names if other != name]
-            yield from _stuck_readings(channels[name], others, begin, end)
+            yield from _reading_offset_defects(channels[name], begin, largest, unit)
+            others = [channels[another] for another in names if another != name]
+            yield from _stuck_reading_defects(channels[name], others, begin, end)
 
 
-def _reading_offset(channel: RawChannel, begin: float, largest: float, unit: str) -> Iterator[Defect]:
+def _reading_offset_defects(channel: RawChannel, begin: float, largest: float, unit: str) -> Iterator[Defect]:
     before = channel.time <= begin + _RELEASED
     reading = channel.samples[before & (channel.time >= begin - 1.0) & np.isfinite(channel.samples)]
     if len(reading) and abs(float(np.median(reading))) > largest:
         text = f"reads {float(np.median(reading)):.4g} {unit} with the brake released"
-        yield Defect("offset", channel.name, text, spoils=True)
+        yield Defect("offset", channel.name, text, makes_unusable=True)
 
 
-def _stuck_readings(
+def _stuck_reading_defects(
     channel: RawChannel, others: list[RawChannel], begin: float, end: float
 ) -> Iterator[Defect]:
-    _, reading = _part(channel, begin, end)
+    _, reading = _finite_samples_between(channel, begin, end)
     if len(reading) < 3 or np.ptp(reading) > 0.0:
         return
-    other_readings = [_part(other, begin, end)[1] for other in others]
+    other_readings = [_finite_samples_between(other, begin, end)[1] for other in others]
     if any(len(r) and np.ptp(r) > _LEAST_CHANGE * np.max(np.abs(r)) for r in other_readings):
-        yield Defect("stuck", channel.name, f"stays at {reading[0]:.6g} throughout the stop", spoils=True)
+        yield Defect(
+            "stuck", channel.name, f"stays at {reading[0]:.6g} throughout the stop", makes_unusable=True
+        )

@@ -58,19 +58,21 @@ _NEEDS: Final = MappingProxyType(
 """Measure -> the channels that it needs."""
 
 
-def _values(measure: str, data: RecordedData) -> tuple[Channels, ...]:
+def _channels_per_value(measure: str, data: RecordedData) -> tuple[Channels, ...]:
     per_wheelset = tuple(tuple(name.format(n=n) for name in data.channels) for n in WHEELSETS)
     if MEASURES[measure].of_wheelsets:
         return per_wheelset
     return (tuple(dict.fromkeys(name for names in per_wheelset for name in names)),)
 
 
-_VALUES: Final = MappingProxyType({name: _values(name, data) for name, data in _NEEDS.items()})
+_CHANNELS_OF_VALUES: Final = MappingProxyType(
+    {name: _channels_per_value(name, data) for name, data in _NEEDS.items()}
+)
 """Measure -> for each of its values the channels that must be known."""
 
 _NEVER: Final = {
     name: tuple(MissingData(f"not recorded: {', '.join(names)}", bounded=False) for names in values)
-    for name, values in _VALUES.items()
+    for name, values in _CHANNELS_OF_VALUES.items()
     if _NEEDS[name].when == "never"
 }
 """Measures whose data no record holds -> what their values lack."""
@@ -79,10 +81,10 @@ _LATE: Final = "the record begins after the brake command"
 
 
 def coverage_of(stop: RecordedStop) -> Coverage:
-    """Return what a record lacks of each measure between brake command and its end."""
+    """Return the data that each measure lacks between the brake command and the end of a record."""
     missing = {
-        measure: tuple(_missing(stop, measure, channels) for channels in values)
-        for measure, values in _VALUES.items()
+        measure: tuple(_missing_data(stop, measure, channels) for channels in values)
+        for measure, values in _CHANNELS_OF_VALUES.items()
         if measure not in _NEVER
     }
     lacking = {measure: gaps for measure, gaps in missing.items() if any(gaps)}
@@ -102,10 +104,10 @@ def _not_computed(stop: RecordedStop) -> Iterator[tuple[str, str]]:
                 yield measure, " .. ".join(ends)
 
 
-def _missing(stop: RecordedStop, measure: str, channels: Channels) -> MissingData | None:
-    if unusable := list(_unusable(stop, measure, channels)):
+def _missing_data(stop: RecordedStop, measure: str, channels: Channels) -> MissingData | None:
+    if unusable := list(_unusable_reasons(stop, measure, channels)):
         return MissingData("; ".join(unusable), bounded=False)
-    if gaps := dict.fromkeys(_gaps(stop, measure, channels)):
+    if gaps := dict.fromkeys(_gap_reasons(stop, measure, channels)):
         return MissingData("; ".join(gaps), bounded=_NEEDS[measure].bounded)
     return None
 
@@ -114,33 +116,37 @@ def measures_of(channel: str) -> tuple[str, ...]:
     """Return the measures that need a channel; none need `distance`, which the speed gives, too."""
     if channel == "distance":
         return ()
-    return tuple(measure for measure, values in _VALUES.items() if any(channel in value for value in values))
+    return tuple(
+        measure
+        for measure, values in _CHANNELS_OF_VALUES.items()
+        if any(channel in value for value in values)
+    )
 
 
-def _unusable(stop: RecordedStop, measure: str, channels: Channels) -> Iterator[str]:
-    """Yield why a value cannot even be bounded; all wheelsets that lack a channel are named together."""
+def _unusable_reasons(stop: RecordedStop, measure: str, channels: Channels) -> Iterator[str]:
+    """Yield the reasons for which a value cannot even be bounded; wheelsets that lack a channel share one."""
     recorded = stop.recording.channels
     if any(name not in recorded for name in channels):
-        needed = dict.fromkeys(name for value in _VALUES[measure] for name in value)
+        needed = dict.fromkeys(name for value in _CHANNELS_OF_VALUES[measure] for name in value)
         yield f"not recorded: {', '.join(name for name in needed if name not in recorded)}"
     for defect in stop.defects:
-        if defect.spoils and defect.channel in channels:
+        if defect.makes_unusable and defect.channel in channels:
             yield str(defect)
 
 
-def _gaps(stop: RecordedStop, measure: str, channels: Channels) -> Iterator[str]:
+def _gap_reasons(stop: RecordedStop, measure: str, channels: Channels) -> Iterator[str]:
     data = _NEEDS[measure]
     throughout = data.when == "throughout"
     if stop.trigger.late and data.from_command:
         yield _LATE
     for name in channels:
-        yield from _unknown(stop, name, throughout=throughout)
+        yield from _unknown_reasons(stop, name, throughout=throughout)
         interval = stop.intervals.get(name, 0.0)
         if throughout and is_coarse(interval):
             yield f"samples are {interval:.6g} s apart"
 
 
-def _unknown(stop: RecordedStop, name: str, *, throughout: bool) -> Iterator[str]:
+def _unknown_reasons(stop: RecordedStop, name: str, *, throughout: bool) -> Iterator[str]:
     unknown = ~np.isfinite(stop.recording[name])
     time = stop.recording[TIME]
     if throughout and unknown.any():
@@ -187,12 +193,12 @@ _WHEELS: Final = 2.0
 
 
 def _highest_forces(recording: Recording, judged_under: scenario.Scenario) -> Array:
-    """Return what both contacts of each wheelset could transmit at every sample, N, shape (n, 4).
+    """Return the largest force of both contacts of each wheelset at every sample, N, shape (n, 4).
 
     Where the curve goes over to that of a clean rail, it is known only with the cleaned share.
     """
     rail = judged_under.rail
-    friction, load = _channels(recording, "friction"), _channels(recording, "wheel_load")
+    friction, load = _wheelset_samples(recording, "friction"), _wheelset_samples(recording, "wheel_load")
 
     def highest(curve: scenario.CreepCurve | None) -> Array:
         wheels = zip(load.T, friction.T, strict=True)
@@ -205,17 +211,19 @@ def _highest_forces(recording: Recording, judged_under: scenario.Scenario) -> Ar
     cleaning, as_found = rail.cleaning_in_force, highest(None)
     if cleaning is None or cleaning.clean_curve is None:
         return as_found
-    return as_found + _channels(recording, "cleaned_share") * (highest(cleaning.clean_curve) - as_found)
+    return as_found + _wheelset_samples(recording, "cleaned_share") * (
+        highest(cleaning.clean_curve) - as_found
+    )
 
 
-def _mass(recording: Recording) -> float:
+def _train_mass(recording: Recording) -> float:
     """Return the mass of the train by the mean wheel loads, kg; NaN where one of them is not known."""
-    load = _channels(recording, "wheel_load")
+    load = _wheelset_samples(recording, "wheel_load")
     known = np.isfinite(load).any(axis=0).all()
     return _WHEELS * float(np.nanmean(load, axis=0).sum()) / STANDARD_GRAVITY if known else np.nan
 
 
-def _channels(recording: Recording, kind: str) -> Array:
+def _wheelset_samples(recording: Recording, kind: str) -> Array:
     """Return a channel of each wheelset, shape (n, 4); NaN where it is missing."""
     unknown = np.full(len(recording), np.nan)
     return np.stack([recording.channels.get(f"{kind}_{n}", unknown) for n in WHEELSETS], axis=1)
@@ -250,7 +258,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     train, wheelsets = replay.train, replay.wheelsets
     _observe_track_brake(train, recording)
     train.track_brake_time_beside = stop.track_brakes_beside
-    close_contacts(train, wheelsets, _mass(recording))
+    close_contacts(train, wheelsets, _train_mass(recording))
     return Observed(train, wheelsets, coverage_of(stop))
 
 
@@ -283,11 +291,13 @@ def judge_recording(case: scenario.Case, stop: RecordedStop) -> tuple[CaseResult
     criteria = tuple(
         replace(verdict, definition={**verdict.definition, **preparation}) for verdict in result.criteria
     )
-    recording = replace(stop.recording, metadata=dict(_metadata(case, stop, observed)))
+    recording = replace(stop.recording, metadata=dict(_recording_metadata(case, stop, observed)))
     return replace(result, criteria=criteria), recording
 
 
-def _metadata(case: scenario.Case, stop: RecordedStop, observed: Observed) -> Iterator[tuple[str, str]]:
+def _recording_metadata(
+    case: scenario.Case, stop: RecordedStop, observed: Observed
+) -> Iterator[tuple[str, str]]:
     yield "case", case.id
     if not stop.trigger.late:
         yield BRAKE_COMMAND_TIME, "0 s"
@@ -312,12 +322,12 @@ def recorded_description(case: Case, stop: RecordedStop | None) -> report.CaseDe
     return report.CaseDescription(
         f"{_TITLE}, judged as: {title}" if title else _TITLE,
         tuple(case.scenario.tags),
-        dict(_conditions(case.scenario, stop)),
-        {"file": case.path.as_posix(), **(dict(_origin(stop)) if stop else {})},
+        dict(_condition_rows(case.scenario, stop)),
+        {"file": case.path.as_posix(), **(dict(_origin_rows(stop)) if stop else {})},
     )
 
 
-def _conditions(scenario: Scenario, stop: RecordedStop | None) -> Iterator[tuple[str, str]]:
+def _condition_rows(scenario: Scenario, stop: RecordedStop | None) -> Iterator[tuple[str, str]]:
     if stop is not None:
         yield "initial speed", f"{stop.recording['speed'][0] / KILOMETRE_PER_HOUR:.4g} km/h, recorded"
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
@@ -333,12 +343,12 @@ def _unless_stated(stated: bool) -> str:
     return "" if stated else _ASSUMED
 
 
-def _origin(stop: RecordedStop) -> Iterator[tuple[str, str]]:
+def _origin_rows(stop: RecordedStop) -> Iterator[tuple[str, str]]:
     channels = list(stop.recording.channels)
     distance = stop.choices["distance"]
     if distance != "recorded":
         channels.remove("distance")
-    yield "channels read", ", ".join(_grouped(channels))
+    yield "channels read", ", ".join(_channel_ranges(channels))
     if distance != "recorded":
         yield "distance", distance
     for name in ("sampling", "raster", "trigger", "standstill", "filter"):
@@ -347,7 +357,7 @@ def _origin(stop: RecordedStop) -> Iterator[tuple[str, str]]:
         yield "defects", "; ".join(map(str, stop.defects))
 
 
-def _grouped(channels: list[str]) -> Iterator[str]:
+def _channel_ranges(channels: list[str]) -> Iterator[str]:
     """Yield channels, those of all wheelsets as one: `slide_1 .. 4`."""
     for name in channels:
         stem, _, number = name.rpartition("_")

@@ -62,7 +62,7 @@ def channel_rows(contents: Contents) -> Iterator[tuple[str, ...]]:
     for group in contents.groups:
         for name, samples in group.channels.items():
             full = f"{group.name}/{name}" if group.name else name
-            yield full, group.units.get(name, ""), str(len(samples)), _span(samples)
+            yield full, group.units.get(name, ""), str(len(samples)), _range_text(samples)
     for name, reason in contents.skipped.items():
         yield name, "", "-", f"skipped: {reason}"
 
@@ -72,16 +72,16 @@ def proposed_map(contents: Contents, name: str = "proposed") -> str:
 
     What is not certain is marked as guessed.
     """
-    assigned = _assigned(contents)
-    time, written = _time(contents, assigned)
-    lines = ["schema: uictest/channel-map/1", f"name: {_map_name(name)}", *_csv(contents, written)]
+    assigned = _assigned_channels(contents)
+    time, written = _time_source(contents, assigned)
+    lines = ["schema: uictest/channel-map/1", f"name: {_map_name(name)}", *_csv_section(contents, written)]
     lines.append(f"time: {time}" if time else "channels:")
     lines += ["channels:"] if time else []
     named = [canonical for canonical in CHANNEL_UNITS if canonical in assigned and canonical != TIME]
-    by_name = dict(_by_name(contents))
+    by_name = dict(_identified_by_name(contents))
     for canonical in named:
         guess = "" if canonical in by_name else _BY_UNIT
-        lines.append(f"  {canonical}: {_source(contents, canonical, assigned[canonical], guess)}")
+        lines.append(f"  {canonical}: {_source_text(contents, canonical, assigned[canonical], guess)}")
     if not named:
         lines[-1] = "channels: {}  # no known name or unit"
     return "\n".join(lines)
@@ -91,7 +91,7 @@ def _map_name(name: str) -> str:
     return re.sub(r"[^a-z0-9._-]+", "-", name.lower()).strip("-._")[:60] or "proposed"
 
 
-def _csv(contents: Contents, written: Sequence[str]) -> Iterator[str]:
+def _csv_section(contents: Contents, written: Sequence[str]) -> Iterator[str]:
     """Yield the section of a text table: what differs from the default, and how its dates are written."""
     settings = {} if contents.dialect is None else contents.dialect.settings(Dialect())
     settings = {name: getattr(contents.dialect, name) for name in contents.guesses} | settings
@@ -104,17 +104,17 @@ def _csv(contents: Contents, written: Sequence[str]) -> Iterator[str]:
         yield f"  dates: {_Source(_quoted(written[0]), ''.join(f'or {_quoted(way)}' for way in written[1:]))}"
 
 
-def _time(contents: Contents, assigned: Mapping[str, str]) -> tuple[_Source | None, Sequence[str]]:
-    """Return where the time comes from, and the ways in which its dates may be written; none: ISO 8601."""
+def _time_source(contents: Contents, assigned: Mapping[str, str]) -> tuple[_Source | None, Sequence[str]]:
+    """Return the source of the time, and the likely formats of its dates; none: ISO 8601."""
     group = _group_of(assigned.get("speed", assigned.get(TIME, "")), contents) or contents.groups[0]
     if group.time is not None:
         return None, ()
     name = assigned.get(TIME, "")
     if name and group.channels.get(name, np.zeros(0)).dtype.kind != "U":
-        by_unit = "" if TIME in dict(_by_name(contents)) else _BY_UNIT
-        return _source(contents, TIME, name, by_unit), ()
+        by_unit = "" if TIME in dict(_identified_by_name(contents)) else _BY_UNIT
+        return _source_text(contents, TIME, name, by_unit), ()
     if columns := _time_columns(contents, assigned):
-        texts = _joined(group, columns)
+        texts = _joined_texts(group, columns)
         listed = _quoted(columns[0]) if len(columns) == 1 else f"{{source: {json.dumps(columns)}}}"
         ways = () if are_dates(np.array(texts)) else tuple(itertools.islice(written_as(texts), 2))
         return _Source(listed), ways
@@ -131,10 +131,12 @@ def _time_columns(contents: Contents, assigned: Mapping[str, str]) -> list[str]:
     if group.time is not None or (numbers is not None and numbers.dtype.kind != "U"):
         return []
     candidates = _date_columns(group)
-    return next((columns for columns in candidates if next(written_as(_joined(group, columns)), "")), [])
+    return next(
+        (columns for columns in candidates if next(written_as(_joined_texts(group, columns)), "")), []
+    )
 
 
-def _joined(group: Group, columns: Sequence[str]) -> list[str]:
+def _joined_texts(group: Group, columns: Sequence[str]) -> list[str]:
     sampled = (group.channels[name][:_SAMPLED].tolist() for name in columns)
     return [" ".join(texts) for texts in zip(*sampled, strict=True)]
 
@@ -149,14 +151,18 @@ def _date_columns(group: Group) -> Iterator[list[str]]:
 
 def remarks(contents: Contents) -> Iterator[str]:
     """Yield measures for which the proposed map lacks channels, and channels that it does not use."""
-    assigned = _assigned(contents)
+    assigned = _assigned_channels(contents)
     missing: dict[tuple[str, ...], list[str]] = {}
     for canonical in CHANNEL_UNITS:
         if canonical not in assigned and (measures := measures_of(canonical)):
             missing.setdefault(measures, []).append(canonical)
     for measures, channels in missing.items():
-        yield f"not assigned: {', '.join(_of_wheelsets(channels))}; needed for {', '.join(measures)}"
-    if TIME not in assigned and _time(contents, assigned)[0] is None and contents.groups[0].time is None:
+        yield f"not assigned: {', '.join(_joined_wheelsets(channels))}; needed for {', '.join(measures)}"
+    if (
+        TIME not in assigned
+        and _time_source(contents, assigned)[0] is None
+        and contents.groups[0].time is None
+    ):
         yield "no time: write time: {source: NAME}, or the sampling interval as in time: {interval: 20 ms}"
     used = {*assigned.values(), *_time_columns(contents, assigned)}
     unused = [name for group in contents.groups for name in group.channels if name not in used]
@@ -165,7 +171,7 @@ def remarks(contents: Contents) -> Iterator[str]:
         yield f"not used: {', '.join(map(_quoted, unused[:_MOST_LISTED]))}{more}"
 
 
-def _of_wheelsets(channels: Sequence[str]) -> list[str]:
+def _joined_wheelsets(channels: Sequence[str]) -> list[str]:
     """Return channels with one name for those of all wheelsets."""
     kinds = dict.fromkeys(name[:-2] for name in channels if set(of_wheelsets(name[:-2])) <= set(channels))
     single = [name for name in channels if name[:-2] not in kinds]
@@ -174,19 +180,20 @@ def _of_wheelsets(channels: Sequence[str]) -> list[str]:
 
 def lacks_speeds(contents: Contents) -> bool:
     """Return whether a proposed map leaves the speed of the train or of a wheelset unassigned."""
-    assigned = _assigned(contents)
+    assigned = _assigned_channels(contents)
     return any(name not in assigned for name in _ESSENTIAL)
 
 
 def fitting_preset(contents: Contents) -> str | None:
     """Return the preset that reads all channels of the proposed map unchanged; None if there is none."""
-    assigned = _assigned(contents)
+    assigned = _assigned_channels(contents)
     return next(
-        (preset for preset in (DEFAULT, _COMMON) if assigned and _fits(preset, contents, assigned)), None
+        (preset for preset in (DEFAULT, _COMMON) if assigned and _preset_fits(preset, contents, assigned)),
+        None,
     )
 
 
-def _fits(preset: str, contents: Contents, assigned: Mapping[str, str]) -> bool:
+def _preset_fits(preset: str, contents: Contents, assigned: Mapping[str, str]) -> bool:
     sources = load_map(preset)[0].sources
     return all(
         canonical in sources
@@ -196,21 +203,23 @@ def _fits(preset: str, contents: Contents, assigned: Mapping[str, str]) -> bool:
     )
 
 
-def _assigned(contents: Contents) -> dict[str, str]:
+def _assigned_channels(contents: Contents) -> dict[str, str]:
     """Return the channels that names or units identify, each with its name in the file."""
-    assigned = dict(_by_name(contents))
+    assigned = dict(_identified_by_name(contents))
     return assigned | {
-        name: source for name, source in _by_unit(contents, set(assigned.values())) if name not in assigned
+        name: source
+        for name, source in _identified_by_unit(contents, set(assigned.values()))
+        if name not in assigned
     }
 
 
-def _by_name(contents: Contents) -> Iterator[tuple[str, str]]:
+def _identified_by_name(contents: Contents) -> Iterator[tuple[str, str]]:
     names: dict[str, list[tuple[Group, str]]] = {}
     for group in contents.groups:
         for name in (name for name, samples in group.channels.items() if not is_empty(samples)):
-            names.setdefault(_plain(_counted_from_one(name, group)), []).append((group, name))
+            names.setdefault(_normalized_name(_counted_from_one(name, group)), []).append((group, name))
     for canonical, source in load_map(_COMMON)[0].sources.items():
-        alike = (channel for alias in source.source for channel in names.get(_plain(alias), ()))
+        alike = (channel for alias in source.source for channel in names.get(_normalized_name(alias), ()))
         fitting = (
             name
             for group, name in alike
@@ -233,7 +242,7 @@ def _counted_from_one(name: str, group: Group) -> str:
     return f"{match[1]}{int(match[2]) + (0 in numbers)}" if len(numbers) <= len(WHEELSETS) else name
 
 
-def _by_unit(contents: Contents, used: set[str]) -> Iterator[tuple[str, str]]:
+def _identified_by_unit(contents: Contents, used: set[str]) -> Iterator[tuple[str, str]]:
     """Yield time, distance and train speed where exactly one unused channel has a unit of that kind."""
     for canonical in ("time", "distance", "speed"):
         fitting = [
@@ -246,13 +255,13 @@ def _by_unit(contents: Contents, used: set[str]) -> Iterator[tuple[str, str]]:
             yield canonical, fitting[0]
 
 
-def _source(contents: Contents, canonical: str, name: str, guess: str = "") -> _Source:
+def _source_text(contents: Contents, canonical: str, name: str, guess: str = "") -> _Source:
     group, si = _group_of(name, contents), CHANNEL_UNITS[canonical]
     assert group is not None
-    several = sum(name in each.channels for each in contents.groups) > 1
+    several = sum(name in any_group.channels for any_group in contents.groups) > 1
     label = group.name or f"group {contents.groups.index(group) + 1}"
     source = _quoted(f"{label}/{name}" if several else name)
-    guesses = [guess, *_doubts(canonical, name, group.channels[name])]
+    guesses = [guess, *_uncertainties(canonical, name, group.channels[name])]
     if group.units.get(name, "") in ROTATIONAL_SPEEDS:
         source = f"{{source: {source}, wheel_radius: 0.46 m}}"
         guesses.append("the radius: state that of the wheel")
@@ -262,8 +271,8 @@ def _source(contents: Contents, canonical: str, name: str, guess: str = "") -> _
     return _Source(source, "; ".join(filter(None, guesses)))
 
 
-def _doubts(canonical: str, name: str, samples: Samples) -> Iterator[str]:
-    """Yield what is not certain of a channel that has the right name."""
+def _uncertainties(canonical: str, name: str, samples: Samples) -> Iterator[str]:
+    """Yield the uncertainties of a channel that has the right name."""
     if _ELEMENT.fullmatch(name):
         yield "elements in the order of the wheelsets"
     if canonical.startswith("valve_command") and samples.dtype.kind != "U" and not np.any(samples > 1.0):
@@ -289,7 +298,7 @@ def _has_unit(group: Group | None, canonical: str, name: str) -> bool:
     return CHANNEL_UNITS[canonical] == "1" or recorded_unit_size(unit, CHANNEL_UNITS[canonical]) is not None
 
 
-def _span(samples: Samples) -> str:
+def _range_text(samples: Samples) -> str:
     if samples.dtype.kind == "U":
         return "texts: " + ", ".join(str(text) for text in np.unique(samples) if text)
     finite = samples[np.isfinite(samples)]
@@ -304,6 +313,6 @@ def _quoted(value: object) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def _plain(name: str) -> str:
-    """Return a name without signs and case; of a single letter the case counts, for T is no time."""
+def _normalized_name(name: str) -> str:
+    """Return a name without signs and case; of a single letter the case counts: T is not time."""
     return name if len(name) == 1 else re.sub(r"[\s_\-.]", "", name).casefold()

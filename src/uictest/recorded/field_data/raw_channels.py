@@ -1,4 +1,4 @@
-"""Channels of a file by canonical name, in SI units, at their own rates or on the raster of a stop."""
+"""Channels of a file by canonical name, in SI units, at their own rates or on the sampling grid of a stop."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def select_channels(
     for name, source in sources.items():
         if name == TIME:
             continue
-        match = _find(contents, name, source)
+        match = _find_channel(contents, name, source)
         if match is not None:
             group, original = match
             samples = _in_si(name, source, original, group, channel_map.dialect, longest)
@@ -103,10 +103,10 @@ def _no_speed(contents: Contents, sources: Mapping[str, ChannelSource]) -> str:
     )
 
 
-def _find(contents: Contents, name: str, source: ChannelSource) -> tuple[Group, str] | None:
+def _find_channel(contents: Contents, name: str, source: ChannelSource) -> tuple[Group, str] | None:
     candidates: list[tuple[Group, str]] = []
     for alias in source.source:
-        matches = dict(_matches(contents, alias))
+        matches = dict(_matching_channels(contents, alias))
         if len(matches) > 1:
             several = ", ".join(map(quoted, matches))
             raise MapError(f"{name}: {quoted(alias)} is in several groups: write one of {several}")
@@ -114,14 +114,14 @@ def _find(contents: Contents, name: str, source: ChannelSource) -> tuple[Group, 
     if len(source.source) == 1:
         return next(iter(candidates), None)
     # Of several names, one with a unit of another kind is another quantity: T1 is a temperature, no torque.
-    misfits = [_misfit(name, source, group.units.get(original, "")) for group, original in candidates]
+    misfits = [_unit_misfit(name, source, group.units.get(original, "")) for group, original in candidates]
     least = min(misfits, default=_OF_ANOTHER_KIND)
     if not candidates or (least == _OF_ANOTHER_KIND and name != "speed"):
         return None
     return candidates[misfits.index(least)]
 
 
-def _matches(contents: Contents, alias: str) -> Iterator[tuple[str, tuple[Group, str]]]:
+def _matching_channels(contents: Contents, alias: str) -> Iterator[tuple[str, tuple[Group, str]]]:
     """Yield the channels that a name stands for by group and name; a group without a name has a number."""
     for k, group in enumerate(contents.groups, start=1):
         label = group.name or f"group {k}"
@@ -133,7 +133,7 @@ def _matches(contents: Contents, alias: str) -> Iterator[tuple[str, tuple[Group,
 _OF_ANOTHER_KIND = 2
 
 
-def _misfit(name: str, source: ChannelSource, unit: str) -> int:
+def _unit_misfit(name: str, source: ChannelSource, unit: str) -> int:
     """Return 0 where a channel may have the unit, 1 where only with the radius of a wheel, else 2."""
     si = CHANNEL_UNITS[name]
     if source.unit or si == "1" or not is_recorded_unit(unit) or recorded_unit_size(unit, si) is not None:
@@ -161,7 +161,7 @@ def _time_of(group: Group, channel_map: ChannelMap, beside: str, longest: float 
         )
     dated = [alias for alias in present if holds_dates(group, alias)]
     if dated and (channel_map.csv.dates or dated[0] == present[0]):
-        return _dated(group, dated, channel_map.csv.dates, longest)
+        return _time_of_dates(group, dated, channel_map.csv.dates, longest)
     return _in_si(TIME, source, present[0], group, channel_map.dialect, longest)
 
 
@@ -171,14 +171,14 @@ def is_empty(samples: Samples) -> bool:
 
 
 def holds_dates(group: Group, name: str) -> bool:
-    """Return whether a channel holds texts of several numbers each, and none that is one."""
+    """Return whether a channel holds texts of several numbers each, and no single number."""
     samples = group.channels[name]
     if samples.dtype.kind != "U" or np.isfinite(group.numbers.get(name, np.zeros(0))).any():
         return False
     return _DATE.search(next((text for text in samples.tolist() if text), "")) is not None
 
 
-def _dated(group: Group, columns: Sequence[str], written: str, longest: float | None) -> Array:
+def _time_of_dates(group: Group, columns: Sequence[str], written: str, longest: float | None) -> Array:
     """Return dates, s, of the first column or of all together; of a whole record since its first."""
     texts = [group.channels[name] for name in columns]
     joined = functools.reduce(lambda one, other: np.char.add(np.char.add(one, " "), other), texts)
@@ -198,15 +198,15 @@ def _in_si(
 ) -> Array:
     samples = group.channels[original]
     if samples.dtype.kind != "U":
-        samples = _of_states(samples, source.states)
+        samples = _with_states_replaced(samples, source.states)
     else:
         strict = longest is not None
         samples = _numbers_of_texts(name, source, original, group, dialect.cells, strict=strict)
         if state_kind(name) is not None:
             return samples
     unit = source.unit or group.units.get(original, "")
-    size = _size(name, unit, original, source.wheel_radius)
-    # What overflows becomes infinite, which is reported as a sample that is no number.
+    size = _unit_size(name, unit, original, source.wheel_radius)
+    # What overflows becomes infinite, which is reported as a sample that is not a number.
     with np.errstate(over="ignore", invalid="ignore"):
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
     if longest is None:
@@ -228,7 +228,7 @@ def _require_plausible(implausible: Implausible | None, name: str, original: str
     return samples
 
 
-def _size(name: str, unit: str, original: str, wheel_radius: float | None) -> float:
+def _unit_size(name: str, unit: str, original: str, wheel_radius: float | None) -> float:
     si = CHANNEL_UNITS[name]
     if not unit and si == "1":
         return 1.0
@@ -262,7 +262,7 @@ def _size(name: str, unit: str, original: str, wheel_radius: float | None) -> fl
     return size
 
 
-def _of_states(samples: Samples, states: Mapping[str, int]) -> Samples:
+def _with_states_replaced(samples: Samples, states: Mapping[str, int]) -> Samples:
     """Return samples of numbers with those that a map names as states, `"0": 1`, in their place."""
     replaced = samples.copy() if states else samples
     for text, number in states.items():
@@ -298,18 +298,21 @@ _ON = 0.5
 
 def with_valve_commands(channels: Mapping[str, RawChannel]) -> dict[str, RawChannel]:
     """Return channels with the valve command of every wheelset whose two magnets have common times."""
-    return {**dict(_commands(channels)), **channels}
+    return {**dict(_valve_commands(channels)), **channels}
 
 
-def _commands(channels: Mapping[str, RawChannel]) -> Iterator[tuple[str, RawChannel]]:
+def _valve_commands(channels: Mapping[str, RawChannel]) -> Iterator[tuple[str, RawChannel]]:
     for n in WHEELSETS:
         hold, vent = (channels.get(f"{magnet}_{n}") for magnet in ("hold_magnet", "vent_magnet"))
         if hold is not None and vent is not None and np.array_equal(hold.time, vent.time):
             name, sources = f"valve_command_{n}", f"{hold.source}, {vent.source}"
-            yield name, RawChannel(name, sources, hold.time, _command(hold.samples, vent.samples))
+            yield (
+                name,
+                RawChannel(name, sources, hold.time, _valve_command_of_magnets(hold.samples, vent.samples)),
+            )
 
 
-def _command(hold: Array, vent: Array) -> Array:
+def _valve_command_of_magnets(hold: Array, vent: Array) -> Array:
     """Return the commands; a valve that vents does so whatever its other magnet shows."""
     command = np.where(vent > _ON, VENT, np.where(hold > _ON, HOLD, FILL))
     return np.where(np.isfinite(hold) & np.isfinite(vent), command, np.nan)
@@ -349,12 +352,12 @@ def at_own_rates(channels: Mapping[str, RawChannel]) -> dict[str, RawChannel]:
 
 
 _GAP_INTERVALS = 2.5
-"""An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
+"""A gap is longer than this many usual intervals, and than the interval of the sampling grid; chosen."""
 
 
-def gaps(time: Array, raster: float) -> NDArray[np.bool_]:
-    """Return which intervals between neighbouring samples are gaps."""
-    longest = max(_GAP_INTERVALS * usual_interval(time), raster * (1.0 + 1e-6))
+def gaps(time: Array, grid_interval: float) -> NDArray[np.bool_]:
+    """Return the mask of intervals between neighbouring samples that are gaps."""
+    longest = max(_GAP_INTERVALS * usual_interval(time), grid_interval * (1.0 + 1e-6))
     return np.asarray(np.diff(time) > longest)
 
 
@@ -381,25 +384,25 @@ def low_passed(channel: RawChannel, corner: float) -> RawChannel:
     return replace(channel, samples=np.interp(channel.time, even, filtered))
 
 
-def resampled(channel: RawChannel, times: Array, raster: float) -> Array:
+def resampled(channel: RawChannel, times: Array, grid_interval: float) -> Array:
     """Return a channel at `times` (s, rising); NaN where it was not recorded.
 
     Args:
         channel: sorted in time; NaN samples stay NaN, and so does what lies between them and others.
         times: at which samples are returned.
-        raster: interval of `times`, s: shorter intervals between samples are no gaps.
+        grid_interval: interval of `times`, s: shorter intervals between samples are not gaps.
 
     """
     if len(channel.time) < 2:
         return np.full(len(times), np.nan)
-    lost = gaps(channel.time, raster)
+    lost = gaps(channel.time, grid_interval)
     return at_instants(channel.time, channel.samples, times, holds=channel.is_state, gaps=lost)
 
 
-def integrated(speed: RawChannel, raster: float, begin: float) -> RawChannel:
+def integrated(speed: RawChannel, grid_interval: float, begin: float) -> RawChannel:
     """Return the distance, m: the speed integrated; unknown from its first gap after `begin`, s."""
     steps = 0.5 * (speed.samples[1:] + speed.samples[:-1]) * np.diff(speed.time)
-    steps[gaps(speed.time, raster)] = np.nan
+    steps[gaps(speed.time, grid_interval)] = np.nan
     steps[np.isnan(steps) & (speed.time[1:] <= begin)] = 0.0
     distance: Array = np.concatenate(([0.0], np.cumsum(steps)))
     return replace(speed, name="distance", source=f"{speed.source}, integrated", samples=distance)

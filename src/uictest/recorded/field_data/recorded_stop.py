@@ -1,4 +1,4 @@
-"""One recorded stop: the channels of a file on one even raster, with every defect found on the way."""
+"""One recorded stop: the channels of a file on one evenly spaced sampling grid, with all its defects."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ from uictest.recorded.field_data.trigger import (
 )
 
 _SLACK = 1e-6
-"""Share of the raster by which the last sample may miss the standstill."""
+"""Share of the sampling interval by which the last sample may miss the standstill."""
 Channels = dict[str, RawChannel]
 
 
@@ -66,7 +66,7 @@ class RecordedStop:
     """One stop as recorded: channels in SI over the time since the brake command, and how they were made.
 
     Args:
-        recording: on an even raster from the brake command to standstill, NaN where nothing was recorded.
+        recording: evenly sampled from the brake command to standstill, NaN where nothing was recorded.
         trigger: the brake command.
         standstill: time and distance from the brake command, s and m; None where the record does not hold it.
         defects: everything found wrong.
@@ -119,14 +119,14 @@ def prepare(
     Raises:
         UnusableError: the train speed has no usable time axis, no number, none at the brake command, or is
             not recorded for a minute of the stop.
-        MapError: nothing marks the brake command, the deceleration is none of a train, or the header states
-            a time that is none.
+        MapError: nothing marks the brake command, the deceleration is not one of a train, or the header
+            states a time that is not one.
 
     """
-    ordered, defects = _ordered(channels)
-    raster = max(float(preparation.raster), usual_interval(ordered["speed"].time))
+    ordered, defects = _with_increasing_time(channels)
+    grid_interval = max(float(preparation.raster), usual_interval(ordered["speed"].time))
     stated = _stated_intervals(metadata, ordered)
-    defects += _sampling_defects(ordered, raster, stated)
+    defects += _sampling_defects(ordered, grid_interval, stated)
     plausible = dict(ordered)
     for name, channel in ordered.items():
         plausible[name], implausible = without_implausible(channel)
@@ -145,13 +145,15 @@ def prepare(
         raise UnusableError((*defects, *interrupted))
     require_plausible_deceleration(speed, trigger.time)
     defects += _sensor_defects(filtered, trigger, end)
-    defects += distance_defects(filtered, trigger.time, min(end, rest.last) if rest else end, raster)
-    defects += _cut_off(speed, trigger, rest)
-    recording, standstill, position = _on_raster(filtered, trigger, rest, raster, tuple(defects))
+    defects += distance_defects(filtered, trigger.time, min(end, rest.last) if rest else end, grid_interval)
+    defects += _incomplete_record_defects(speed, trigger, rest)
+    recording, standstill, position = _on_sampling_grid(
+        filtered, trigger, rest, grid_interval, tuple(defects)
+    )
     choices = {
-        **_choices(preparation, trigger, rest, raster, filtered),
+        **_preparation_choices(preparation, trigger, rest, grid_interval, filtered),
         "filter": _filter_text(preparation, plausible, filtered),
-        "sampling": _sampling(filtered),
+        "sampling": _sampling_text(filtered),
     }
     intervals = {name: stated.get(name, usual_interval(channel.time)) for name, channel in filtered.items()}
     beside = _track_brakes_beside(metadata)
@@ -167,35 +169,35 @@ def _track_brakes_beside(metadata: Mapping[str, str]) -> float:
         raise MapError(f"{TRACK_BRAKES_BESIDE} in the header of the file: {error}; {hint}") from error
 
 
-def _choices(
+def _preparation_choices(
     preparation: Preparation,
     trigger: BrakeCommand,
     rest: Standstill | None,
-    raster: float,
+    grid_interval: float,
     channels: Channels,
 ) -> dict[str, str]:
     return {
         "trigger": trigger.text,
-        "raster": f"{1e3 * raster:.6g} ms, signals linear, states held",
+        "raster": f"{1e3 * grid_interval:.6g} ms, signals linear, states held",
         "standstill_speed": f"{preparation.standstill_speed.text} (chosen)",
         "standstill": rest.text if rest else "not in the record",
         "distance": "recorded" if "distance" in channels else "integrated from speed",
     }
 
 
-def _sampling(channels: Channels) -> str:
+def _sampling_text(channels: Channels) -> str:
     """Return the interval of the train speed, and those of channels with a time of their own."""
     others = (axis for axis in by_axis(channels.values()) if axis[0].time is not channels["speed"].time)
-    texts = [f"{_names(axis)} every {1e3 * usual_interval(axis[0].time):.6g} ms" for axis in others]
+    texts = [f"{_channel_names(axis)} every {1e3 * usual_interval(axis[0].time):.6g} ms" for axis in others]
     return "; ".join([f"speed every {1e3 * usual_interval(channels['speed'].time):.6g} ms", *texts])
 
 
-def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]]:
-    """Return the channels whose times rise, and the defects of the other time axes."""
+def _with_increasing_time(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]]:
+    """Return the channels whose times increase throughout, and the defects of the other time axes."""
     ordered: Channels = {}
     defects: list[Defect] = []
     for axis in by_axis(channels.values()):
-        of_axis = list(disorder(axis[0].time, _names(axis)))
+        of_axis = list(disorder(axis[0].time, _channel_names(axis)))
         defects += of_axis
         if not of_axis and len(axis[0].time) > 1:
             ordered |= {channel.name: channel for channel in axis}
@@ -205,7 +207,7 @@ def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]
 
 
 def _stated_intervals(metadata: Mapping[str, str], channels: Channels) -> dict[str, float]:
-    """Return how far apart the samples were from which a file has channels interpolated, s."""
+    """Return the original sampling interval (s) of each channel that the file has interpolated."""
     try:
         stated = json.loads(metadata.get(SAMPLE_INTERVALS, "{}"))
         return {name: float(stated[name]) for name in channels if name in stated}
@@ -213,10 +215,10 @@ def _stated_intervals(metadata: Mapping[str, str], channels: Channels) -> dict[s
         raise MapError(f"{SAMPLE_INTERVALS} in the header of the file: write seconds by channel") from error
 
 
-def _sampling_defects(channels: Channels, raster: float, stated: dict[str, float]) -> Iterator[Defect]:
+def _sampling_defects(channels: Channels, grid_interval: float, stated: dict[str, float]) -> Iterator[Defect]:
     for axis in by_axis(channels.values()):
-        yield from gap_defects(axis[0].time, _names(axis), raster)
-        yield from coarse_defects(usual_interval(axis[0].time), _names(axis))
+        yield from gap_defects(axis[0].time, _channel_names(axis), grid_interval)
+        yield from coarse_defects(usual_interval(axis[0].time), _channel_names(axis))
     for name, interval in stated.items():
         yield from coarse_defects(interval, name)
     for channel in channels.values():
@@ -227,7 +229,7 @@ def _filter_text(preparation: Preparation, before: Channels, after: Channels) ->
     if preparation.low_pass is None:
         return "none"
     untouched = [name for name, channel in before.items() if after[name] is channel and not channel.is_state]
-    exceptions = f", but for {_listed(untouched)}" if untouched else ""
+    exceptions = f", but for {_shortened_list(untouched)}" if untouched else ""
     return f"low-pass {preparation.low_pass.text}{exceptions}"
 
 
@@ -241,7 +243,9 @@ def _sensor_defects(channels: Channels, trigger: BrakeCommand, end: float) -> It
             yield defect
 
 
-def _cut_off(speed: RawChannel, trigger: BrakeCommand, rest: Standstill | None) -> Iterator[Defect]:
+def _incomplete_record_defects(
+    speed: RawChannel, trigger: BrakeCommand, rest: Standstill | None
+) -> Iterator[Defect]:
     if trigger.late:
         yield Defect("starts-late", "the record", f"begins after the brake command: {trigger.text}")
     if rest is None:
@@ -251,24 +255,26 @@ def _cut_off(speed: RawChannel, trigger: BrakeCommand, rest: Standstill | None) 
         yield Defect("ends-before-standstill", "the record", text)
 
 
-def _on_raster(
+def _on_sampling_grid(
     channels: Channels,
     trigger: BrakeCommand,
     rest: Standstill | None,
-    raster: float,
+    grid_interval: float,
     defects: tuple[Defect, ...],
 ) -> tuple[Recording, tuple[float, float] | None, float]:
     """Return the recording over the time since the brake command, its standstill, and where it begins."""
     if not (recorded := "distance" in channels):
-        channels = {**channels, "distance": integrated(channels["speed"], raster, trigger.time)}
+        channels = {**channels, "distance": integrated(channels["speed"], grid_interval, trigger.time)}
     last = min(rest.last, rest.time) if rest else float(channels["speed"].time[-1])
-    count = int((last - trigger.time) / raster + _SLACK)
-    since: Array = np.arange(count + 1, dtype=np.float64) * raster
-    samples = {name: resampled(channel, trigger.time + since, raster) for name, channel in channels.items()}
+    count = int((last - trigger.time) / grid_interval + _SLACK)
+    since: Array = np.arange(count + 1, dtype=np.float64) * grid_interval
+    samples = {
+        name: resampled(channel, trigger.time + since, grid_interval) for name, channel in channels.items()
+    }
     if not np.isfinite(samples["speed"][0]):
         unknown = Defect("gap", "speed", f"is not known at the brake command {trigger.text}", True)
         raise UnusableError((*defects, unknown))
-    origin = resampled(channels["distance"], np.array([trigger.time]), raster)[0]
+    origin = resampled(channels["distance"], np.array([trigger.time]), grid_interval)[0]
     samples["distance"] = samples["distance"] - origin
     recording = Recording(
         {TIME: since, **{name: samples[name] for name in CHANNEL_UNITS if name in samples}},
@@ -276,15 +282,15 @@ def _on_raster(
     )
     standstill = None
     if rest is not None:
-        run = resampled(channels["distance"], np.array([rest.last]), raster)[0] - origin + rest.beyond
+        run = resampled(channels["distance"], np.array([rest.last]), grid_interval)[0] - origin + rest.beyond
         standstill = rest.time - trigger.time, float(run)
     return recording, standstill, float(origin) if recorded else math.nan
 
 
-def _names(channels: list[RawChannel]) -> str:
-    return _listed([channel.name for channel in channels])
+def _channel_names(channels: list[RawChannel]) -> str:
+    return _shortened_list([channel.name for channel in channels])
 
 
-def _listed(names: list[str]) -> str:
+def _shortened_list(names: list[str]) -> str:
     listed = ", ".join(names[:3])
     return listed if len(names) <= 3 else f"{listed} and {len(names) - 3} more"

@@ -37,11 +37,13 @@ class BrakeCommand:
 def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand:
     """Return the brake command of a record. Raises MapError where nothing marks it."""
     if preparation.trigger_time is not None:
-        return _stated(channels, float(preparation.trigger_time), "stated by the user", preparation)
+        return _command_at_stated_time(
+            channels, float(preparation.trigger_time), "stated by the user", preparation
+        )
     for name in _ORDER if preparation.trigger == "auto" else (preparation.trigger,):
         match name:
             case "stated":
-                trigger = _by_metadata(channels, metadata, preparation)
+                trigger = _command_stated_by_file(channels, metadata, preparation)
             case "start":
                 first = float(channels["speed"].time[0])
                 _require_running(
@@ -50,7 +52,7 @@ def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparatio
                 trigger = BrakeCommand(first, "the record begins with it")
             case _:
                 level = _ON if name == "command" else float(preparation.trigger_pressure)
-                trigger = _first_of(channels, _SHOWN_BY[name], level, preparation)
+                trigger = _command_at_first_rise(channels, _SHOWN_BY[name], level, preparation)
         if trigger is not None:
             return trigger
     if preparation.trigger == "auto":
@@ -63,18 +65,24 @@ def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparatio
     )
 
 
-def _by_metadata(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
+def _command_stated_by_file(
+    channels: Channels, metadata: Metadata, preparation: Preparation
+) -> BrakeCommand | None:
     text = metadata.get(BRAKE_COMMAND_TIME)
     if text is None:
         return None
     try:
-        return _stated(channels, float(parse_quantity(text, "time")), "stated by the file", preparation)
+        return _command_at_stated_time(
+            channels, float(parse_quantity(text, "time")), "stated by the file", preparation
+        )
     except QuantityError as error:
         hint = f"{error.hint or 'write a time such as 12.3 s'}, or state the time with --trigger"
         raise MapError(f"{BRAKE_COMMAND_TIME} in the header of the file: {error}; {hint}") from error
 
 
-def _stated(channels: Channels, time: float, by: str, preparation: Preparation) -> BrakeCommand:
+def _command_at_stated_time(
+    channels: Channels, time: float, by: str, preparation: Preparation
+) -> BrakeCommand:
     first, last = (float(channels["speed"].time[k]) for k in (0, -1))
     if time >= last:
         raise MapError(
@@ -104,14 +112,16 @@ _SHOWN_BY = {"command": ("brake_command",), "demand": ("demanded_pressure",), "p
 _ORDER = ("stated", *_SHOWN_BY)
 
 
-def _first_of(
+def _command_at_first_rise(
     channels: Channels, names: tuple[str, ...], level: float, preparation: Preparation
 ) -> BrakeCommand | None:
     rises = [
         BrakeCommand(time, name, late)
         for name in names
         if name in channels
-        for time, late in _rise(channels[name], channels["speed"], level, float(preparation.trigger_speed))
+        for time, late in _first_rise(
+            channels[name], channels["speed"], level, float(preparation.trigger_speed)
+        )
     ]
     if not rises:
         return None
@@ -128,13 +138,13 @@ def _first_of(
     return BrakeCommand(time, text, late=first.time - lead < time - 1e-6)
 
 
-def _rise(
+def _first_rise(
     channel: RawChannel, speed: RawChannel, level: float, least_speed: float
 ) -> Iterator[tuple[float, bool]]:
-    """Yield when a channel first rises through `level` to stay there, or that it was above it already.
+    """Yield the time, s, at which a channel first rises through `level` and stays above, and False.
 
-    The train must run then. Contacts bounce: it stays if it is above for most of the shortest application,
-    and of two samples.
+    If it is above from the start, yield the first time and True. The train must run then. Contacts bounce: a
+    channel stays above if it is so for most of the shortest application, and of two samples.
     """
     known = np.isfinite(channel.samples)
     time, samples = channel.time[known], channel.samples[known]
@@ -147,12 +157,12 @@ def _rise(
     shares = [np.mean(above[k + 1 : max(end, k + 3)]) for k, end in zip(rises, ends, strict=True)]
     lasting = [int(k) for k, share in zip(rises, shares, strict=True) if share > 0.5]
     if lasting:
-        yield _crossing(time, samples, lasting[0], level, held=channel.is_state), False
+        yield _crossing_time(time, samples, lasting[0], level, held=channel.is_state), False
     elif above[0] and running[0]:
         yield float(time[0]), True
 
 
-def _crossing(time: Array, samples: Array, before: int, level: float, *, held: bool) -> float:
+def _crossing_time(time: Array, samples: Array, before: int, level: float, *, held: bool) -> float:
     if held:
         return float(time[before + 1])
     low, high = samples[before], samples[before + 1]
@@ -196,8 +206,8 @@ def find_standstill(time: Array, speed: Array, begin: float, slow: float) -> Sta
     rest = slice(first, int(np.searchsorted(time, time[first] + _LONGEST_REST, side="right")))
     zero = np.flatnonzero(speed[rest] <= 0.0)
     if len(zero):
-        return _between(time, speed, first + int(zero[0]))
-    return _run_out(time, speed, first + int(np.argmin(speed[rest])))
+        return _standstill_between_samples(time, speed, first + int(zero[0]))
+    return _standstill_by_extrapolation(time, speed, first + int(np.argmin(speed[rest])))
 
 
 def first_lasting_fall(time: Array, speed: Array, level: float) -> int | None:
@@ -210,14 +220,14 @@ def first_lasting_fall(time: Array, speed: Array, level: float) -> int | None:
     return None
 
 
-def _between(time: Array, speed: Array, zero: int) -> Standstill:
+def _standstill_between_samples(time: Array, speed: Array, zero: int) -> Standstill:
     before, after = float(speed[zero - 1]), float(speed[zero])
     share = before / (before - after)
     moment = float(time[zero - 1] + share * (time[zero] - time[zero - 1]))
     return Standstill(moment, 0.0, moment, "a sample at or below zero")
 
 
-def _run_out(time: Array, speed: Array, last: int) -> Standstill | None:
+def _standstill_by_extrapolation(time: Array, speed: Array, last: int) -> Standstill | None:
     start = int(np.searchsorted(time, time[last] - _WINDOW))
     span = float(time[last] - time[start])
     deceleration = float(speed[start] - speed[last]) / span if span > 0.0 else 0.0

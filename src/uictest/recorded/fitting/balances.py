@@ -40,21 +40,27 @@ _WHEELS = 8
 def wheel_loads(vehicle: scenario.Vehicle, deceleration: Array) -> Array:
     """Return the load of one wheel of each wheelset, N, shape (4, n), at decelerations in m/s2.
 
-    The body leans on the leading bogie, each bogie on its leading wheelset: moments about the rail, springs
-    at rest. Body and bogie pull at each other at the heights of link and secondary springs, shared by
-    stiffness.
+    The load transfer is quasi-static, with springs at rest: the body loads the leading bogie, and each bogie
+    its leading wheelset, by the moments about the rail. Body and bogie act on each other at the mean height
+    of traction link and secondary springs, weighted by stiffness. A load transfer per deceleration is in kg.
     """
     body, bogie, wheelset = vehicle.loaded_body, vehicle.bogie, vehicle.wheelset
-    height = _coupling_height(vehicle)
-    lean = body.mass * (body.height - height) / (2.0 * vehicle.half_pivot_distance)
-    moments = 0.5 * body.mass * height + bogie.mass * bogie.height + 2.0 * wheelset.mass * wheelset.radius
-    rotating = np.array(vehicle.rotational_inertias).reshape(2, 2).sum(axis=1) / wheelset.radius
-    turning = (moments + rotating) / (2.0 * bogie.half_wheelbase)
-    shares = np.array(
-        [0.25 * b * lean + 0.5 * w * turning[j] for j, b in enumerate((1.0, -1.0)) for w in (1.0, -1.0)]
+    coupling_height = _coupling_height(vehicle)
+    transfer_to_bogie = body.mass * (body.height - coupling_height) / (2.0 * vehicle.half_pivot_distance)
+    mass_moment = (
+        0.5 * body.mass * coupling_height + bogie.mass * bogie.height + 2.0 * wheelset.mass * wheelset.radius
+    )
+    rotating_moment = np.array(vehicle.rotational_inertias).reshape(2, 2).sum(axis=1) / wheelset.radius
+    transfer_in_bogie = (mass_moment + rotating_moment) / (2.0 * bogie.half_wheelbase)
+    transfer_per_wheel = np.array(
+        [
+            0.25 * bogie_sign * transfer_to_bogie + 0.5 * wheelset_sign * transfer_in_bogie[j]
+            for j, bogie_sign in enumerate((1.0, -1.0))
+            for wheelset_sign in (1.0, -1.0)
+        ]
     )
     static = vehicle.total_mass * STANDARD_GRAVITY / _WHEELS
-    loads: Array = static + np.outer(shares, deceleration)
+    loads: Array = static + np.outer(transfer_per_wheel, deceleration)
     return loads
 
 
@@ -124,20 +130,20 @@ def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples
     part = slice(0, count)
     time = np.asarray(recording[TIME])[part]
     width = max(round(_SMOOTHING / (time[1] - time[0])), 1)
-    speed = _smoothed(np.asarray(recording["speed"])[part], width)
-    wheels = np.array([_smoothed(np.asarray(recording[name])[part], width) for name in names[1:]])
+    speed = _moving_average(np.asarray(recording["speed"])[part], width)
+    wheels = np.array([_moving_average(np.asarray(recording[name])[part], width) for name in names[1:]])
     slip = speed - wheels
-    loads = _of_wheelsets(recording, "wheel_load", part, width)
+    loads = _wheelset_channels(recording, "wheel_load", part, width)
     if loads is None:
-        loads = wheel_loads(scenario.vehicle, -np.gradient(_smoothed(speed, 5 * width), time))
+        loads = wheel_loads(scenario.vehicle, -np.gradient(_moving_average(speed, 5 * width), time))
     return StopSamples(
         time,
         speed,
         wheels,
         slip,
-        np.asarray(recording["distance"])[part] - _behind(scenario)[:, None],
+        np.asarray(recording["distance"])[part] - _distances_from_first_wheelset(scenario)[:, None],
         loads,
-        _torque(recording, scenario, part, width),
+        _brake_torque(recording, scenario, part, width),
         (slip > definition.sliding_slip) & (slip > definition.sliding_slide * speed),
         wheels < 2.0 * definition.locked_speed,
         float(np.median(np.abs(np.diff(recording["speed"][part], 3)))) / _THIRD_DIFFERENCE / width**0.5,
@@ -150,10 +156,10 @@ def _require_sound_speeds(stop: field_data.RecordedStop, names: tuple[str, ...])
         raise FitError(
             f"a fit needs the train speed and all wheel speeds; not recorded: {', '.join(missing)}"
         )
-    spoilt = [str(defect) for defect in stop.defects if defect.spoils and defect.channel in names]
+    unusable = [str(defect) for defect in stop.defects if defect.makes_unusable and defect.channel in names]
     holes = [name for name in (*names, "distance") if not np.isfinite(stop.recording[name]).all()]
-    if spoilt or holes:
-        defects = spoilt + [f"{name} has gaps" for name in holes]
+    if unusable or holes:
+        defects = unusable + [f"{name} has gaps" for name in holes]
         raise FitError(f"a fit needs speeds without defects: {'; '.join(defects)}")
     if stop.trigger.late:
         raise FitError("the record begins after the brake command, so positions on the track are not known")
@@ -166,7 +172,7 @@ def _require_wheels_alone(recording: Recording, scenario: Scenario) -> None:
         raise FitError("a track brake slowed the train: the deceleration is not that of its wheels")
 
 
-def _smoothed(samples: Array, width: int) -> Array:
+def _moving_average(samples: Array, width: int) -> Array:
     """Return the moving average over an odd number of samples, shorter and still centred near the ends."""
     half = width // 2
     reach = np.minimum(half, np.minimum(np.arange(len(samples)), np.arange(len(samples))[::-1]))
@@ -176,8 +182,8 @@ def _smoothed(samples: Array, width: int) -> Array:
     return average
 
 
-def _behind(scenario: Scenario) -> Array:
-    """Return how far each wheelset runs behind the first, m."""
+def _distances_from_first_wheelset(scenario: Scenario) -> Array:
+    """Return the distance from the first wheelset to each of the four, m."""
     pivots = 2.0 * scenario.vehicle.half_pivot_distance
     base = 2.0 * scenario.vehicle.bogie.half_wheelbase
     return np.array([0.0, base, pivots, pivots + base])
@@ -188,11 +194,11 @@ def of_wheelsets(scenario: Scenario, name: str) -> Array:
     return np.array([[float(wheelset_value(scenario, number, name))] for number in WHEELSET_NUMBERS])
 
 
-def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -> Array | None:
+def _brake_torque(recording: Recording, scenario: Scenario, part: slice, width: int) -> Array | None:
     """Return the brake torque by the clamping forces and the scenario's pads, else as recorded.
 
     It is averaged like the speeds, so that both sides of a balance are. Of pads that vary with speed or
-    temperature, and beside a dynamic brake, the forces alone do not say the torque.
+    temperature, and with a dynamic brake, the forces alone do not say the torque.
     """
     disc = scenario.brake.system.disc
     pads = of_wheelsets(scenario, "pad_friction") * of_wheelsets(scenario, "brake_force")
@@ -200,24 +206,24 @@ def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -
     sources = (("clamping_force", per_force), ("brake_torque", np.ones_like(per_force)))
     by_torque_alone = scenario.brake.pad.varies or scenario.brake.dynamic is not None
     for kind, factor in sources[1:] if by_torque_alone else sources:
-        if (samples := _of_wheelsets(recording, kind, part, width)) is not None:
+        if (samples := _wheelset_channels(recording, kind, part, width)) is not None:
             return np.asarray(factor * samples)
     return None
 
 
-def _of_wheelsets(recording: Recording, kind: str, part: slice, width: int) -> Array | None:
+def _wheelset_channels(recording: Recording, kind: str, part: slice, width: int) -> Array | None:
     """Return the smoothed samples of a kind of channel, (4, n); None where one has gaps or is missing."""
     names = [f"{kind}_{n}" for n in WHEELSETS]
     if any(name not in recording.channels or not np.isfinite(recording[name]).all() for name in names):
         return None
-    return np.array([_smoothed(np.asarray(recording[name])[part], width) for name in names])
+    return np.array([_moving_average(np.asarray(recording[name])[part], width) for name in names])
 
 
 # numpy has no fused multiply-add, and a fit does not need its last bit.
 _FOR_ARRAYS: dict[Any, Any] = {fma: lambda a, b, c: a * b + c, maximum: np.maximum, select: np.where}
 
 
-def wheelset_creep(
+def wheelset_creep_force(
     slip: Array,
     speed: Array,
     load: Array,
@@ -240,13 +246,13 @@ def wheelset_creep(
     area = np.pi * contact.semi_axis_longitudinal * contact.semi_axis_lateral
     reference = 0.25 * contact.shear_modulus * area * contact.kalker_coefficient
     load_ratio = load / float(contact.reference_wheel_load)
-    force, _ = _of_arrays(creep_force)(
+    force, _ = _vectorized(creep_force)(
         slip,
         speed,
         load,
-        _of_arrays(contact_stiffness)(float(reference), load_ratio),
+        _vectorized(contact_stiffness)(float(reference), load_ratio),
         friction,
-        *(_blended(float(getattr(rail, name)), name, clean) for name in _SHAPE),
+        *(_blended_with_clean(float(getattr(rail, name)), name, clean) for name in _SHAPE),
     )
     wheels = 2.0
     total: Array = wheels * force
@@ -256,7 +262,9 @@ def wheelset_creep(
 _SHAPE: Final = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
 
 
-def _blended(as_found: float, name: str, clean: tuple[scenario.CreepCurve, Array] | None) -> float | Array:
+def _blended_with_clean(
+    as_found: float, name: str, clean: tuple[scenario.CreepCurve, Array] | None
+) -> float | Array:
     """Return a number of the creep curve, which goes over to that of a clean rail with the cleaned share."""
     if clean is None:
         return as_found
@@ -265,7 +273,7 @@ def _blended(as_found: float, name: str, clean: tuple[scenario.CreepCurve, Array
 
 
 @cache
-def _of_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
+def _vectorized(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of the rig's creep law with numpy's functions for its scalar ones."""
     translated: Callable[..., Any] = translate(function, lambda f: f, dict(_FOR_ARRAYS))
     return translated
@@ -322,7 +330,7 @@ class Balances:
         curve = None if rail.cleaning_in_force is None else rail.cleaning_in_force.clean_curve
         clean = None if curve is None or share is None else (curve, share)
         slip = np.maximum(s.slip, 0.0)
-        force = wheelset_creep(slip, s.speed, s.load, friction, rail.condition, clean)
+        force = wheelset_creep_force(slip, s.speed, s.load, friction, rail.condition, clean)
         return over(self.windows, s, force)
 
     def brake_impulse(self, brake_factor: float) -> Array | None:
@@ -330,7 +338,7 @@ class Balances:
         if self.samples.torque is None:
             return None
         torque = brake_factor * self._torque_impulse
-        impulse: Array = (torque + self._inertia * self._turned) / self._radius
+        impulse: Array = (torque + self._inertia * self._angular_velocity_gain) / self._radius
         return impulse
 
     def residuals(self, friction: Array, share: Array | None, brake_factor: float) -> tuple[Array, Array]:
@@ -346,23 +354,23 @@ class Balances:
         by_rail, by_brake = self.rail_impulse(friction, share), self.brake_impulse(brake_factor)
         of_wheelsets, impulse, load = np.empty(0), by_rail, self._load_impulse
         if by_brake is not None:
-            of_wheelsets = ((by_rail - by_brake) / load)[self._known[0]]
+            of_wheelsets = ((by_rail - by_brake) / load)[self._known_balances[0]]
             impulse = np.where(self.windows.sliding, by_rail, by_brake)
         of_train = (impulse.sum(axis=0) - self.lost_momentum) / load.sum(axis=0)
-        return of_wheelsets, np.asarray(of_train[self._known[1]])
+        return of_wheelsets, np.asarray(of_train[self._known_balances[1]])
 
     @cached_property
-    def _known(self) -> tuple[Mask, Mask]:
+    def _known_balances(self) -> tuple[Mask, Mask]:
         """Where a balance is known: of which wheelset in which window, (4, k), and of the train, (k,)."""
         sliding, known = self.windows.sliding, ~self.windows.standing & (self.samples.torque is not None)
         return sliding & known, np.asarray((sliding | known).all(axis=0))
 
     def noise_variance(self, row: int) -> float:
-        """Return what the noise of the train speed adds to the variance of the mean of residuals in a row.
+        """Return the variance that noise of the train speed adds to the mean of `row` consecutive residuals.
 
         Between windows that follow each other it cancels. Wheelsets are so light that theirs hardly counts.
         """
-        known = self._known[1]
+        known = self._known_balances[1]
         single = self.scenario.vehicle.total_mass * self.samples.noise / self._load_impulse.sum(axis=0)
         followed = np.count_nonzero(known[1:] & known[:-1]) / np.count_nonzero(known)
         return 2.0 * float(np.mean(single[known] ** 2)) * (1.0 - (1.0 - 1.0 / row) * followed) / row
@@ -394,8 +402,8 @@ class Balances:
         return of_wheelsets(self.scenario, "rotational_inertia")
 
     @cached_property
-    def _turned(self) -> Array:
-        """By how much each wheelset turns faster at the end of each window, rad/s, (4, k)."""
+    def _angular_velocity_gain(self) -> Array:
+        """Gain of angular velocity of each wheelset over each window, rad/s, (4, k)."""
         speed = self.samples.wheel_speed
         return np.asarray((speed[:, self.windows.last] - speed[:, self.windows.first]) / self._radius)
 

@@ -56,15 +56,15 @@ def solve(residuals: Callable[[Array], Groups], start: Array, bounds: Bounds) ->
         start: of the unknowns; its sizes are their scales.
         bounds: lowest and highest values.
     """
-    minimum = _minimum(residuals, start, bounds, [1.0] * len(residuals(start)), _FIRST_OUTLIER)
+    minimum = _least_squares(residuals, start, bounds, [1.0] * len(residuals(start)), _FIRST_OUTLIER)
     for _ in range(_PASSES):
         groups = residuals(minimum.x)
         noise = [max(float(np.std(group)) if len(group) > 2 else 1.0, 1e-6) for group in groups]
-        minimum = _minimum(residuals, minimum.x, bounds, noise, _OUTLIER)
-    return _solution(minimum, residuals(minimum.x))
+        minimum = _least_squares(residuals, minimum.x, bounds, noise, _OUTLIER)
+    return _solution_with_intervals(minimum, residuals(minimum.x))
 
 
-def _minimum(
+def _least_squares(
     residuals: Callable[[Array], Groups], start: Array, bounds: Bounds, noise: Sequence[float], outlier: float
 ) -> Any:
     """Return scipy's solution, in units of the noise."""
@@ -79,7 +79,7 @@ def _minimum(
     )
 
 
-def _solution(minimum: Any, residuals: Groups) -> Solution:
+def _solution_with_intervals(minimum: Any, residuals: Groups) -> Solution:
     from scipy.stats import t as student
 
     freedom = max(len(minimum.fun) - len(minimum.x), 1)
@@ -94,7 +94,7 @@ def _solution(minimum: Any, residuals: Groups) -> Solution:
 
 
 def in_a_row(residuals: Array) -> tuple[int, float]:
-    """Return over how many residuals in a row the mean is looked at, and its variance.
+    """Return the number of consecutive residuals whose mean is tested, and the variance of that mean.
 
     The noise of a speed ends one window and begins the next, so that it hardly stays in such a mean; what the
     unknowns do not describe stays.
@@ -321,7 +321,7 @@ def fit_stop(
     if not windows:
         raise FitError("the stop is too short for a fit")
     stretches = Stretches(balances, tuple(breaks))
-    solution = _solve(RailUnderStop(stretches), with_pads=with_pads)
+    solution = _solve_frictions(RailUnderStop(stretches), with_pads=with_pads)
     values, half_widths = list(map(float, solution.values)), solution.half_widths
     groups, count = solution.residuals[:2], len(stretches.free)
 
@@ -333,11 +333,11 @@ def fit_stop(
     pads = estimate("factor on pad friction", -1) if with_pads else None
     residuals = np.concatenate(groups)
     residual = float(np.std(residuals)) if len(residuals) else float("nan")
-    shares = _left(balances, groups, float(np.mean(values[:count]))) if count else (0.0, 0.0)
+    shares = _unexplained_shares(balances, groups, float(np.mean(values[:count]))) if count else (0.0, 0.0)
     return Fit(tuple(breaks), friction, pads, residual, delay, *shares)
 
 
-def _solve(rail: RailUnderStop, *, with_pads: bool) -> Solution:
+def _solve_frictions(rail: RailUnderStop, *, with_pads: bool) -> Solution:
     """Return the free frictions, the delay of the wheel speeds, and the factor."""
     count, balances = len(rail.free), rail.stretches.balances
     samples = balances.samples
@@ -354,8 +354,8 @@ def _solve(rail: RailUnderStop, *, with_pads: bool) -> Solution:
     return solve(residuals, start, (lowest, [HIGHEST] * count + [_LONGEST_DELAY] + [5.0] * with_pads))
 
 
-def _left(balances: Balances, residuals: Groups, friction: float) -> tuple[float, float]:
-    """Return the shares of a friction that are left at least beyond the noise, and that noise leaves."""
+def _unexplained_shares(balances: Balances, residuals: Groups, friction: float) -> tuple[float, float]:
+    """Return the residual beyond the noise (lower bound) and the noise, as shares of a friction."""
     from scipy.stats import chi2
 
     largest = max(residuals, key=len)

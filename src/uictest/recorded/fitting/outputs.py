@@ -45,7 +45,7 @@ class Agreement:
 
 
 def overlay(recorded: RecordedStop, simulated: SimulatedStop) -> Recording:
-    """Return train and wheel speeds of both stops on the raster of the record, m/s."""
+    """Return train and wheel speeds of both stops at the sampling times of the record, m/s."""
     assert simulated.recording is not None
     time, other = np.asarray(recorded.recording[TIME]), simulated.recording
     channels = {TIME: time}
@@ -58,7 +58,7 @@ def overlay(recorded: RecordedStop, simulated: SimulatedStop) -> Recording:
 
 
 def agreement(recorded: RecordedStop, simulated: SimulatedStop, both: Recording) -> Agreement:
-    """Return how far the two stops agree."""
+    """Return the agreement of the two stops."""
     difference = both["speed_recorded"] - both["speed_simulated"]
     time, distance = recorded.standstill or (float("nan"), float("nan"))
     return Agreement(
@@ -100,13 +100,13 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: P
         **dict.fromkeys(EXPANSION_KEYS),
     }
     for key, value in {**case.parameters, **statements}.items():
-        _assign(content, key, yaml.safe_load(value))
-    _assign(content, "rail.friction", friction_of(fit, case.scenario))
-    _assign(content, "rail.friction_over_time", None)
+        _assign_dotted_key(content, key, yaml.safe_load(value))
+    _assign_dotted_key(content, "rail.friction", friction_of(fit, case.scenario))
+    _assign_dotted_key(content, "rail.friction_over_time", None)
     if (variation := case.scenario.rail.variation_in_force) is not None:
         numbers = {dotted(key): value.text for key, value in quantities_in(variation)}
         # What the rail was is fitted: nothing of it is left to chance.
-        _assign(content, "rail.variation", numbers | {"spread": "0 %"})
+        _assign_dotted_key(content, "rail.variation", numbers | {"spread": "0 %"})
     if fit.pad_factor is not None:
         content.setdefault("brake", {})["system"] = _with_pads(case.scenario, fit.pad_factor.value)
     text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
@@ -131,7 +131,7 @@ def friction_of(fit: Fit, scenario: Scenario) -> float | dict[str, Any]:
     return {"points": points, "interpolation": "steps"}
 
 
-def _assign(content: dict[str, Any], key: str, value: Any) -> None:
+def _assign_dotted_key(content: dict[str, Any], key: str, value: Any) -> None:
     names = key.split(".")
     parts = {dotted(part) for part in PART_KEYS}
     for depth in range(1, len(names)):

@@ -39,7 +39,7 @@ def continuous_clock(time: Array, before: Before) -> Array:
 
 
 def last_interval(time: Array, before: Before) -> float:
-    """Return the last interval of the recorded clock that is no step, s."""
+    """Return the last interval of the recorded clock that is not a step, s."""
     sound = np.flatnonzero(runs_on(np.diff(time)))
     return float(time[sound[-1] + 1] - time[sound[-1]]) if len(sound) else before.interval
 
@@ -50,7 +50,7 @@ def steps_of_clock(time: Array) -> NDArray[np.intp]:
 
 
 def runs_on(intervals: Array) -> NDArray[np.bool_]:
-    """Return which intervals between two rows are no steps of the clock."""
+    """Return the mask of intervals between two rows that are not steps of the clock."""
     return (intervals > 0.0) & (intervals <= _LONGEST_INTERVAL)
 
 
@@ -123,9 +123,9 @@ class Course:
     BEFORE, AFTER = 5.0, 3.0
     """s that belong to a stop before the brake and after standstill; chosen."""
     LARGEST_JUMP = 2.0
-    """m/s between two rows beside a step of the clock: more, and the recording was interrupted; chosen."""
-    TOLD_GAP = 5.0
-    """s without a row within a stop that are told; chosen."""
+    """m/s between the rows at a step of the clock: if more, the recording was interrupted; chosen."""
+    REMARKED_GAP = 5.0
+    """s without a row within a stop that a remark reports; chosen."""
     FALL, STEEPEST = 0.5, 5.0
     """s before standstill, and m/s2 by which a train slows down there: else its speed is lost; chosen."""
     HELD = 0.1
@@ -146,16 +146,16 @@ class Course:
         self.time, self.first_row = rows.time, before.row
         self.unusable = ~np.isfinite(rows.train)
         self.clock = continuous_clock(rows.time, before)
-        self.braked, self.unknown = _applied(self.clock, rows.braked)
+        self.braked, self.unknown = _brake_applied(self.clock, rows.braked)
         self.signed = reference_speed(self.clock, rows.train, rows.wheels, before)
         self.speed = np.abs(self.signed)
-        self.travelled = _distance(self.clock, self.speed, before.travelled)
+        self.travelled = _distance_travelled(self.clock, self.speed, before.travelled)
         self.steps = steps_of_clock(rows.time)
         jumps = ~(np.abs(np.diff(self.speed)) <= self.LARGEST_JUMP)
         self.interruptions = self.steps[jumps[self.steps - 1]]
 
     def before(self, row: int) -> Before:
-        """Return what a stretch follows that begins at a row."""
+        """Return the state before a stretch that begins at a row."""
         if row == 0:
             return self._before
         _, train, wheels, _ = self._rows
@@ -185,7 +185,7 @@ class Course:
     def standstill(self, first: int, end: int, level: float) -> int | None:
         """Return the row at which a train that brakes from `first` to `end` falls to a speed and stays there.
 
-        None where it does not, or longer than `RUN_OUT` after the release, or behind an interruption.
+        None where it does not, or only later than `RUN_OUT` after the release, or after an interruption.
         """
         last = self.row_after(end - 1, self.RUN_OUT)
         following = self.interruptions[self.interruptions > first]
@@ -193,12 +193,12 @@ class Course:
         below = self.speed[first:last] <= level
         for k in map(int, first + np.flatnonzero(below & ~np.concatenate(([False], below[:-1])))):
             until = min(self.row_after(k, self.STANDS), last)
-            if np.nanmedian(self.speed[k:until]) <= level and not self._drops(first, k):
+            if np.nanmedian(self.speed[k:until]) <= level and not self._drops_too_fast(first, k):
                 return k
         return None
 
-    def _drops(self, first: int, row: int) -> bool:
-        """Return whether the speed falls to that of a row faster than a train slows down."""
+    def _drops_too_fast(self, first: int, row: int) -> bool:
+        """Return whether the speed falls to its value in a row faster than a train can slow down."""
         before = max(min(self.row_before(row, self.FALL), row - 1), first)
         known = np.flatnonzero(np.isfinite(self.speed[first : before + 1]))
         before = first + int(known[-1]) if len(known) else before
@@ -218,32 +218,36 @@ class Course:
 
     def applications(self) -> Iterator[tuple[int, int]]:
         """Yield first row and the row after the last of every application; an interruption ends one."""
-        pieces = [rows for rows in _pieces(self.braked, self.interruptions) if self._lasts(*rows)]
+        pieces = [
+            rows
+            for rows in _braked_stretches(self.braked, self.interruptions)
+            if self._lasts_long_enough(*rows)
+        ]
         pieces.reverse()
         while pieces:
             first, end = pieces.pop()
-            while pieces and self._goes_on(end, pieces[-1][0]):
+            while pieces and self._continues_application(end, pieces[-1][0]):
                 _, end = pieces.pop()
             yield first, end
 
-    def _lasts(self, first: int, end: int) -> bool:
-        """Return whether rows with the brake applied are no noise."""
+    def _lasts_long_enough(self, first: int, end: int) -> bool:
+        """Return whether the brake is applied for longer than noise of its signal."""
         seconds = self.clock[min(end, len(self.clock) - 1)] - self.clock[first]
         return bool(seconds >= SHORTEST_APPLICATION - self.TIE)
 
     def is_whole(self, end: int) -> bool:
-        """Return whether the record shows what follows an application that ends before row `end`."""
+        """Return whether the record goes on after an application that ends before row `end`."""
         if end == len(self.clock) or end in self.interruptions:
             return False
         return bool(self.clock[end] - self.clock[end - 1] <= self.RUN_OUT)
 
-    def _goes_on(self, end: int, begin: int) -> bool:
-        """Whether the stretch from row `begin` belongs to the application that ended before row `end`."""
+    def _continues_application(self, end: int, begin: int) -> bool:
+        """Return whether rows from `begin` on belong to the application that ended before row `end`."""
         interrupted = np.any((self.interruptions >= end) & (self.interruptions <= begin))
         return bool(self.clock[begin] - self.clock[end] < self.SHORTEST_RELEASE and not interrupted)
 
     def remarks(self, rows: tuple[int, int], first: int, stop_row: int) -> Iterator[str]:
-        """Yield what is unusual about an event: its rows, where it is applied and where it ends."""
+        """Yield remarks on an event: its `rows`, the first row of the application, the row of its end."""
         begin, end = rows
         inside = self.steps[(self.steps > begin) & (self.steps < end)]
         for row in inside[: self.REMARKED_STEPS]:
@@ -254,7 +258,9 @@ class Course:
         if np.nanmedian(np.append(self.signed[begin:end], 0.0)) < 0.0:
             yield "runs backwards: speeds are recorded with their sign changed"
         gaps = np.diff(self.time[first : stop_row + 1])
-        yield from (f"not recorded for {gap:.6g} s" for gap in gaps[(gaps > self.TOLD_GAP) & runs_on(gaps)])
+        yield from (
+            f"not recorded for {gap:.6g} s" for gap in gaps[(gaps > self.REMARKED_GAP) & runs_on(gaps)]
+        )
         if self.unusable[begin:end].any():
             yield "the train speed is missing in part"
         if self.unknown[begin:end].any():
@@ -264,8 +270,8 @@ class Course:
             yield f"the speed is kept for {seconds:.0f} s after the brake is applied"
 
 
-def _applied(clock: Array, signal: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return whether the brake counts as applied, and whether its signal is missing for long.
+def _brake_applied(clock: Array, signal: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return two masks of rows: the brake counts as applied, its signal is missing for long.
 
     A signal that is missing for less than a release is held; for longer the brake may be applied at any time.
     """
@@ -276,7 +282,9 @@ def _applied(clock: Array, signal: Array) -> tuple[NDArray[np.bool_], NDArray[np
     return (signal[before] > 0.0) | unknown, unknown
 
 
-def _pieces(braked: NDArray[np.bool_], interruptions: NDArray[np.intp]) -> Iterator[tuple[int, int]]:
+def _braked_stretches(
+    braked: NDArray[np.bool_], interruptions: NDArray[np.intp]
+) -> Iterator[tuple[int, int]]:
     """Yield every stretch with the brake applied, cut where the recording was interrupted."""
     padded = np.concatenate(([False], braked, [False]))
     starts, ends = np.flatnonzero(padded[1:] & ~padded[:-1]), np.flatnonzero(~padded[1:] & padded[:-1])
@@ -285,6 +293,6 @@ def _pieces(braked: NDArray[np.bool_], interruptions: NDArray[np.intp]) -> Itera
         yield from pairwise([int(start), *map(int, inside), int(end)])
 
 
-def _distance(clock: Array, speed: Array, travelled: float) -> Array:
+def _distance_travelled(clock: Array, speed: Array, travelled: float) -> Array:
     known = np.nan_to_num(speed)
     return np.cumsum(np.concatenate(([travelled], 0.5 * (known[1:] + known[:-1]) * np.diff(clock))))

@@ -64,15 +64,15 @@ def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | Non
                 select_channels(next(read_pieces(path, channel_map.dialect)), channel_map, math.inf)
             raise
         if is_clock(channel_map.csv.dates):
-            read = _after(last, read)
+            read = _with_continued_clock(last, read)
             last = float(np.fmax.reduce(read[_SPEED].time, initial=last))
         known = known or list(read)
         plausible = {name: _without_implausible(c) for name, c in _without_empty_rows(read).items()}
-        yield _over_one_time(plausible, known, float(channel_map.preparation.raster))
+        yield _on_train_time_axis(plausible, known, float(channel_map.preparation.raster))
 
 
-def _after(last: float, channels: dict[str, RawChannel]) -> dict[str, RawChannel]:
-    """Return channels whose clock, one of a day, runs on from the last time of the piece before, s."""
+def _with_continued_clock(last: float, channels: dict[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels whose time of day continues past midnight from `last`, end of the piece before (s)."""
     first = next(iter(channels[_SPEED].time[np.isfinite(channels[_SPEED].time)]), math.nan)
     days = DAY * np.nan_to_num(np.round((last - first) / DAY))
     axes = {id(channel.time): channel.time + max(days, 0.0) for channel in channels.values()}
@@ -101,7 +101,9 @@ def _without_implausible(channel: RawChannel) -> RawChannel:
     return replace(channel, samples=np.where(implausible, np.nan, channel.samples))
 
 
-def _over_one_time(channels: dict[str, RawChannel], known: Collection[str], raster: float) -> Piece:
+def _on_train_time_axis(
+    channels: dict[str, RawChannel], known: Collection[str], grid_interval: float
+) -> Piece:
     """Return the `known` channels over the time of the train speed; NaN where one is not recorded there."""
     time = channels[_SPEED].time
     aligned: dict[str, RawChannel] = {}
@@ -114,7 +116,7 @@ def _over_one_time(channels: dict[str, RawChannel], known: Collection[str], rast
             aligned[name] = replace(channel, time=time)
         else:
             intervals[name] = usual_interval(channel.time)
-            aligned[name] = replace(channel, time=time, samples=resampled(channel, time, raster))
+            aligned[name] = replace(channel, time=time, samples=resampled(channel, time, grid_interval))
     return Piece(aligned, intervals)
 
 
@@ -166,7 +168,7 @@ class Rows(NamedTuple):
     braked: Array
 
     def followed_by(self, other: Rows) -> Rows:
-        """Return these rows and others behind them."""
+        """Return these rows followed by others."""
         joined: list[Any] = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
         return Rows(*joined)
 
@@ -188,11 +190,13 @@ def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
     for piece in pieces_of(path, channel_map, names):
         if threshold is None:
             shown_by = _shown_by(piece.channels, alternatives)
-            threshold = _ON if shown_by == _COMMAND else _threshold(path, channel_map, shown_by)
+            threshold = _ON if shown_by == _COMMAND else _pressure_threshold(path, channel_map, shown_by)
         signals = [piece.channels[name].samples for name in shown_by if name in piece.channels]
         speed = piece.channels["speed"]
         wheels = [piece.channels[name].samples for name in WHEELS if name in piece.channels]
-        rolling = _rolling(wheels, speed.samples) if len(wheels) > 1 else np.full(len(piece), np.nan)
+        rolling = (
+            _speed_of_two_wheelsets(wheels, speed.samples) if len(wheels) > 1 else np.full(len(piece), np.nan)
+        )
         signal = np.fmax.reduce(signals)
         braked = np.where(np.isfinite(signal), signal > threshold, np.nan)
         yield Rows(speed.time, speed.samples, rolling, braked)
@@ -211,7 +215,7 @@ def _shown_by(channels: Mapping[str, RawChannel], alternatives: Sequence[tuple[s
     raise MapError(f"nothing shows when the brake is applied: map one of {looked_for}")
 
 
-def _threshold(path: Path, channel_map: ChannelMap, names: Sequence[str]) -> float:
+def _pressure_threshold(path: Path, channel_map: ChannelMap, names: Sequence[str]) -> float:
     """Return the pressure above which the brake of a file is applied, Pa.
 
     A sensor may show some pressure with the brake released: the median of what lies within that rise of the
@@ -235,11 +239,11 @@ def _class_of_quantile(counts: NDArray[np.int64], share: float) -> int:
     return int(np.searchsorted(np.cumsum(counts), share * counts.sum()))
 
 
-def _rolling(wheels: Sequence[Array], train: Array) -> Array:
-    """Return the speed that at least two wheelsets reach, with its sign: no single sensor makes it.
+def _speed_of_two_wheelsets(wheels: Sequence[Array], train: Array) -> Array:
+    """Return the speed that at least two wheelsets reach, with its sign, so that no single sensor sets it.
 
-    Beside a train sensor that shows standstill a third one must reach it, if there is one: else two dead ones
-    would overrule three. It is that of the train where one wheelset turns with it, whatever the others do.
+    Where the train sensor shows standstill, a third wheelset must reach it, too, if there is one.
+    It is the train speed where any wheelset turns with the train.
     """
     stacked = np.stack(wheels)
     sign = np.where(np.nansum(np.nan_to_num(stacked), axis=0) < 0.0, -1.0, 1.0)
@@ -253,7 +257,7 @@ def _rolling(wheels: Sequence[Array], train: Array) -> Array:
 
 
 class Constant(NamedTuple):
-    """A number that a speed shows, since when, s, and between which the other one ran since, m/s."""
+    """A constant-value run of a speed: value (m/s), start (s), and range of the other speed since (m/s)."""
 
     number: float = np.nan
     since: float = 0.0
@@ -262,14 +266,14 @@ class Constant(NamedTuple):
 
 
 class Before(NamedTuple):
-    """What a stretch of a log follows: all that its own rows do not show.
+    """State of a log before a stretch of it: all that its own rows do not show.
 
     Args:
         row: number of its first row in the log.
         clock: of that row, without steps, s.
         interval: last one of the recorded clock that was no step, s.
         travelled: distance from the beginning of the log, m.
-        train, wheels: what the two speeds showed up to it.
+        train, wheels: constant-value runs of the two speeds that end before it.
 
     """
 
@@ -286,55 +290,71 @@ def reference_speed(clock: Array, train: Array, wheels: Array, before: Before) -
 
     It is not that of the wheels where these show one number themselves, or spin while the train creeps.
     """
-    stuck = (wheels != 0.0) & _stuck(clock, wheels, train, before.wheels)
+    stuck = (wheels != 0.0) & _is_stuck(clock, wheels, train, before.wheels)
     rolling = np.where(stuck, np.nan, wheels)
     dead = ~np.isfinite(train) | (np.abs(train) < np.minimum(0.5 * np.abs(rolling) - 1.0, _CREEPS))
-    dead |= _stuck(clock, train, wheels, before.train)
+    dead |= _is_stuck(clock, train, wheels, before.train)
     return np.where(dead & np.isfinite(rolling), rolling, train)
 
 
-def _stuck(clock: Array, speed: Array, other: Array, begun: Constant) -> NDArray[np.bool_]:
-    """Return where a speed is stuck: it shows one number while the other one changes, or zero while it rolls.
+def _is_stuck(clock: Array, speed: Array, other_speed: Array, carried_over: Constant) -> NDArray[np.bool_]:
+    """Return the mask of rows in which a speed is stuck: constant while the other one changes or rolls.
 
-    It is known then, and counts as stuck from `STUCK_BEFORE` before. `begun` is what it showed before.
+    A speed counts as stuck from `STUCK_BEFORE` seconds before the row in which this shows. `carried_over` is
+    its constant-value run in the piece before.
     """
     stuck = np.zeros(len(clock), dtype=np.bool_)
-    for first, end, since, least, largest in _constants(clock, speed, other, begun):
+    for first, end, since, least, largest in _constant_runs(clock, speed, carried_over):
         least_stuck = _LEAST_STUCK if speed[first] == 0.0 else STUCK_BEFORE
         if clock[end - 1] - since <= least_stuck:
             continue
-        lowest = np.fmin.accumulate(np.append(least, other[first:end]))[1:]
-        highest = np.fmax.accumulate(np.append(largest, other[first:end]))[1:]
+        lowest = np.fmin.accumulate(np.append(least, other_speed[first:end]))[1:]
+        highest = np.fmax.accumulate(np.append(largest, other_speed[first:end]))[1:]
         telling = highest - lowest > _TELLING_CHANGE
         if speed[first] == 0.0:
             telling = np.fmax(np.abs(lowest), np.abs(highest)) > _ROLLS
-        known = telling & (clock[first:end] - since > least_stuck)
-        if known.any():
-            before = np.searchsorted(clock, clock[first + int(np.argmax(known))] - STUCK_BEFORE)
+        detected = telling & (clock[first:end] - since > least_stuck)
+        if detected.any():
+            before = np.searchsorted(clock, clock[first + int(np.argmax(detected))] - STUCK_BEFORE)
             stuck[max(first, int(before)) : end] = True
     return stuck
 
 
-def constant_before(row: int, clock: Array, speed: Array, other: Array, begun: Constant) -> Constant:
-    """Return what a speed shows up to a row, without it."""
-    *_, (first, end, since, least, largest) = _constants(clock[:row], speed[:row], other[:row], begun)
-    low, high = (f.reduce(other[first:end]) for f in (np.fmin, np.fmax))
-    return Constant(float(speed[first]), since, float(np.fmin(low, least)), float(np.fmax(high, largest)))
+def constant_before(
+    row: int, clock: Array, speed: Array, other_speed: Array, carried_over: Constant
+) -> Constant:
+    """Return the state of the constant-value run of `speed` that ends before `row`.
+
+    It carries the run from one piece of a log to the next.
+
+    Args:
+        row: number of rows that precede the next piece, at least 1.
+        clock: s.
+        speed: the speed that may be constant, m/s.
+        other_speed: the speed whose range over the run is kept, m/s.
+        carried_over: the run in which the first row lies, from the piece before.
+
+    """
+    *_, (first, end, since, least, largest) = _constant_runs(clock[:row], speed[:row], carried_over)
+    lowest = float(np.fmin(np.fmin.reduce(other_speed[first:end]), least))
+    highest = float(np.fmax(np.fmax.reduce(other_speed[first:end]), largest))
+    return Constant(float(speed[first]), since, lowest, highest)
 
 
-def _constants(
-    clock: Array, speed: Array, other: Array, begun: Constant
+def _constant_runs(
+    clock: Array, speed: Array, carried_over: Constant
 ) -> Iterator[tuple[int, int, float, float, float]]:
-    """Yield the rows over which a speed shows one number, if for long, and last of all the last ones.
+    """Yield long runs of rows with one value of a speed, and always the first and the last run.
 
-    With them, since when it does, and between which speeds the other ran before the first row.
+    Each is: first row, row after the last, time since which the value is constant (s), and the least and
+    largest other speed in earlier pieces (m/s; NaN without such pieces).
     """
     edges = np.concatenate(([0], np.flatnonzero(np.diff(speed) != 0.0) + 1, [len(speed)]))
-    long = clock[edges[1:] - 1] - clock[edges[:-1]] > _LEAST_STUCK
-    long[[0, -1]] = True
-    for k in np.flatnonzero(long):
+    is_long = clock[edges[1:] - 1] - clock[edges[:-1]] > _LEAST_STUCK
+    is_long[[0, -1]] = True
+    for k in np.flatnonzero(is_long):
         first, end = int(edges[k]), int(edges[k + 1])
-        if k == 0 and speed[0] == begun.number:
-            yield first, end, *begun[1:]
+        if k == 0 and speed[0] == carried_over.number:
+            yield first, end, *carried_over[1:]
         else:
             yield first, end, float(clock[first]), np.nan, np.nan

@@ -53,7 +53,7 @@ class LoggedEvent:
         end_speed: at the end of the application, m/s.
         rows: first row and the one after the last of what belongs to it, over all files.
         begins_braked: whether the brake is applied from the first of these rows on.
-        reason: why it is no stop; empty for a stop.
+        reason: why it is not a stop; empty for a stop.
         remarks: what is unusual about it: steps of the clock, running backwards.
 
     """
@@ -136,7 +136,7 @@ class _Finder:
     CALM = 2.0 * Course.SHORTEST_RELEASE
     """s after which it is known whether an application begins in a row; chosen."""
     LONGEST = 3600.0
-    """s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
+    """s: a longer application without standstill is not a braking: its signal is stuck; chosen."""
     GROWTH = 0.3
     """Share by which the rows that are held grow before they are gone through again; chosen."""
     FEW = 1000
@@ -160,8 +160,8 @@ class _Finder:
         self.rows += len(rows.time)
         if not self.rows or len(self._pending.time) < self.GROWTH * (len(self._held.time) - self.FEW):
             return []
-        course = self._course()
-        events = list(self._events(course, all_of_them=False))
+        course = self._held_course()
+        events = list(self._settled_events(course, all_of_them=False))
         row = self._looked_at - self._before.row
         first = max(min(course.row_before(row, self.LEAD), row - course.ROWS_OF_SPEED), 0)
         self._held, self._before = self._held.from_row(first), course.before(first)
@@ -169,14 +169,14 @@ class _Finder:
 
     def rest(self) -> list[LoggedEvent]:
         """Return the events at the end of the log."""
-        return list(self._events(self._course(), all_of_them=True)) if self.rows else []
+        return list(self._settled_events(self._held_course(), all_of_them=True)) if self.rows else []
 
-    def _course(self) -> Course:
+    def _held_course(self) -> Course:
         self._held = self._held.followed_by(self._pending)
         self._pending = self._pending.from_row(len(self._pending.time))
         return Course(self._held, self._before)
 
-    def _events(self, course: Course, *, all_of_them: bool) -> Iterator[LoggedEvent]:
+    def _settled_events(self, course: Course, *, all_of_them: bool) -> Iterator[LoggedEvent]:
         """Yield the events that are known, and note up to which row all have been reported."""
         held = self._before.row
         self.begun = [
@@ -191,14 +191,16 @@ class _Finder:
                 if not all_of_them and not self._is_settled(course, first, end):
                     looked_at = min(looked_at, first)
                     break
-                yield self._event(course, first, end)
+                yield self._event_of_application(course, first, end)
             if self._stood >= 0:
-                yield from self._running_on(course, max(self._stood - held, 0), end, all_of_them=all_of_them)
+                yield from self._restart_events(
+                    course, max(self._stood - held, 0), end, all_of_them=all_of_them
+                )
             self._released = held + end
         self._looked_at = max(self._looked_at, held + looked_at)
 
     def _is_settled(self, course: Course, first: int, end: int) -> bool:
-        """Return whether nothing that follows a course changes what an application in it is."""
+        """Return whether no later row can change the event of an application."""
         now = course.clock[-1]
         if now - course.clock[first] >= self.LONGEST + self.SETTLED:
             return True
@@ -206,7 +208,7 @@ class _Finder:
         over = end if stands is None else stands
         return bool(over < len(course.clock) and now - course.clock[over] >= self.SETTLED)
 
-    def _running_on(
+    def _restart_events(
         self, course: Course, stood: int, end: int, *, all_of_them: bool
     ) -> Iterator[LoggedEvent]:
         """Yield an event where a train runs again with the brake applied since it stood in a row."""
@@ -219,9 +221,9 @@ class _Finder:
             reason = "runs again with the brake still applied: its signal may be stuck or inverted"
             if course.unknown[first]:
                 reason = _NO_SIGNAL
-            yield self._noted(course, first, first, first, reason)
+            yield self._logged_event(course, first, first, first, reason)
 
-    def _event(self, course: Course, first: int, end: int) -> LoggedEvent:
+    def _event_of_application(self, course: Course, first: int, end: int) -> LoggedEvent:
         longest = course.row_after(first, self.LONGEST)
         too_long, end = end > longest, min(end, longest)
         rest = course.standstill(first, end, self._lowest)
@@ -235,10 +237,14 @@ class _Finder:
         else:
             known = np.append(initial, course.speed[first : stop_row + 1])
             last = float(known[known > self._lowest][-1]) if initial > self._lowest else initial
-            reason = self._reason(initial, final, last, whole=course.is_whole(end), too_long=too_long)
-        return self._noted(course, max(self._released - course.first_row, 0), first, stop_row, reason)
+            reason = self._rejection_reason(
+                initial, final, last, recorded_to_end=course.is_whole(end), too_long=too_long
+            )
+        return self._logged_event(course, max(self._released - course.first_row, 0), first, stop_row, reason)
 
-    def _noted(self, course: Course, begin_row: int, first: int, stop_row: int, reason: str) -> LoggedEvent:
+    def _logged_event(
+        self, course: Course, begin_row: int, first: int, stop_row: int, reason: str
+    ) -> LoggedEvent:
         rows = course.rows_of(first, stop_row, begin_row)
         begin = next(file for file in reversed(self.begun) if file.row <= course.first_row + first)
         return LoggedEvent(
@@ -254,26 +260,37 @@ class _Finder:
             tuple(course.remarks(rows, first, stop_row)),
         )
 
-    def _reason(self, initial: float, final: float, last: float, *, whole: bool, too_long: bool) -> str:
-        """Return why an application of the brake is no stop."""
+    def _rejection_reason(
+        self,
+        initial_speed: float,
+        final_speed: float,
+        last_speed: float,
+        *,
+        recorded_to_end: bool,
+        too_long: bool,
+    ) -> str:
+        """Return the reason for which an application of the brake is not counted as a stop.
+
+        Speeds are in m/s; `last_speed` is the last known one above standstill.
+        """
         kmh = KILOMETRE_PER_HOUR
-        if not np.isfinite(initial):
+        if not np.isfinite(initial_speed):
             return "the speed is not known when the brake is applied"
-        if initial <= self._lowest:
+        if initial_speed <= self._lowest:
             return "without motion"
-        if initial < self._settings.from_speed:
-            return f"from {initial / kmh:.1f} km/h, below {self._settings.from_speed / kmh:g} km/h"
-        if not too_long and not final > self._lowest:
-            return f"the speed is lost at {last / kmh:.1f} km/h"
+        if initial_speed < self._settings.from_speed:
+            return f"from {initial_speed / kmh:.1f} km/h, below {self._settings.from_speed / kmh:g} km/h"
+        if not too_long and not final_speed > self._lowest:
+            return f"the speed is lost at {last_speed / kmh:.1f} km/h"
         if too_long:
             return (
                 f"longer than {self.LONGEST / 60.0:g} min without standstill: the brake signal may be stuck"
             )
-        if not whole:
-            return f"the recording ends or is interrupted at {final / kmh:.1f} km/h"
-        if final > (1.0 - Course.HELD) * initial:
-            return f"drag braking: released at {final / kmh:.1f} of {initial / kmh:.1f} km/h"
-        return f"released at {final / kmh:.1f} km/h"
+        if not recorded_to_end:
+            return f"the recording ends or is interrupted at {final_speed / kmh:.1f} km/h"
+        if final_speed > (1.0 - Course.HELD) * initial_speed:
+            return f"drag braking: released at {final_speed / kmh:.1f} of {initial_speed / kmh:.1f} km/h"
+        return f"released at {final_speed / kmh:.1f} km/h"
 
 
 _SIGNED = ("speed", "distance", *WHEELS)
@@ -287,24 +304,26 @@ def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> dict[Path, s
     Raises UnreadableError, MapError, OSError; ForeignFileError where the folder holds something else.
     """
     with files.replaced_folder(folder) as new:
-        return {folder / name: digest for name, digest in _written(log, channel_map, new)}
+        return {folder / name: digest for name, digest in _write_each_stop(log, channel_map, new)}
 
 
-def _written(log: Log, channel_map: ChannelMap, folder: Path) -> Iterator[tuple[str, str]]:
+def _write_each_stop(log: Log, channel_map: ChannelMap, folder: Path) -> Iterator[tuple[str, str]]:
     """Write every stop, and yield the names of the files in order, with their SHA-256."""
     pending: dict[int, list[_Part]] = {}
     lead = float(channel_map.preparation.trigger_lead)
     following = 0
-    for first, piece in _pieces(log, channel_map):
+    for first, piece in _pieces_with_first_row(log, channel_map):
         end = first + len(piece)
         for k in range(following, len(log.stops)):
             begin, last = log.stops[k].rows
             if begin >= end:
                 break
-            pending.setdefault(k, []).append(_part(piece, slice(max(begin - first, 0), last - first)))
+            pending.setdefault(k, []).append(
+                _rows_of_piece(piece, slice(max(begin - first, 0), last - first))
+            )
             if last <= end:
                 name = f"stop-{k + 1:04d}.parquet"
-                content = _parquet(pending.pop(k), log.stops[k], lead)
+                content = _parquet_bytes(pending.pop(k), log.stops[k], lead)
                 files.write(folder, name, content)
                 yield name, hashlib.sha256(content).hexdigest()
                 following = k + 1
@@ -319,12 +338,12 @@ class _Part(NamedTuple):
     intervals: dict[str, float]
 
 
-def _part(piece: Piece, rows: slice) -> _Part:
+def _rows_of_piece(piece: Piece, rows: slice) -> _Part:
     channels = {name: channel.samples[rows].copy() for name, channel in piece.channels.items()}
     return _Part({"time": piece.channels["speed"].time[rows].copy(), **channels}, piece.intervals)
 
 
-def _pieces(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, Piece]]:
+def _pieces_with_first_row(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, Piece]]:
     row = 0
     for path, end in zip(log.files, log.first_rows[1:], strict=True):
         for piece in pieces_of(path, channel_map):
@@ -336,8 +355,8 @@ def _pieces(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, Piece]]:
             raise UnreadableError(f"{path}: has changed since its stops were found")
 
 
-def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
-    """Return the parts one behind the other; a channel that a part has not is NaN there."""
+def _concatenated_parts(parts: list[dict[str, Array]]) -> dict[str, Array]:
+    """Return the channels of consecutive parts as one; NaN where a part lacks a channel."""
     names = dict.fromkeys(name for part in parts for name in part)
     blank = [np.full(len(part["time"]), np.nan) for part in parts]
     return {
@@ -352,12 +371,12 @@ def _runs_backwards(name: str, channels: dict[str, Array]) -> bool:
     return name in _SIGNED and bool(np.nanmedian(np.append(channels[speed], 0.0)) < 0.0)
 
 
-def _parquet(parts: list[_Part], event: LoggedEvent, lead: float) -> bytes:
+def _parquet_bytes(parts: list[_Part], event: LoggedEvent, lead: float) -> bytes:
     """Return a stop as a file; its clock is as recorded, steps included, which a recording could not hold.
 
     It states the brake command, `lead` before the brake is applied, unless it begins with the brake applied.
     """
-    channels = _joined([part.channels for part in parts])
+    channels = _concatenated_parts([part.channels for part in parts])
     facts = {
         "source": event.file.name,
         "place": f"sample {event.row + 1}, {event.time:.12g} s, {event.distance:.6g} m",

@@ -50,7 +50,7 @@ class Publication:
     texts: Mapping[str, str] = field(default_factory=dict)
 
     def markdown(self, limit: int = LIMIT) -> str:
-        """Return what people read in at most so many bytes; lines say what was left out."""
+        """Return the Markdown for people in at most so many bytes; lines say what was left out."""
         from uictest.report.formats.markdown import document_markdown
 
         return document_markdown(self.document, limit, level=2)

@@ -58,7 +58,7 @@ def markdown_table(table: Table, room: int | None = None) -> str:
     columns = table.for_people
     if not columns:
         return ""
-    titles = (_inert(column.title.replace("\n", ", ")) for column, _ in columns)
+    titles = (_inert_text(column.title.replace("\n", ", ")) for column, _ in columns)
     rules = "|".join("--:" if column.is_number else "---" for column, _ in columns)
     text = f"{_row(titles)}|{rules}|\n"
     cells = [_cells(column, texts, list(table.rows)) for column, texts in columns]
@@ -76,7 +76,7 @@ def markdown_table(table: Table, room: int | None = None) -> str:
 
 
 def _cells(column: Column[Any], texts: Sequence[str], rows: Sequence[Any]) -> list[str]:
-    cells = [code(text) if column.literal else _inert(text) for text in texts]
+    cells = [code(text) if column.literal else _inert_text(text) for text in texts]
     if column.tone is None:
         return cells
     tones = map(column.tone, rows)
@@ -92,7 +92,7 @@ def _row(cells: Iterable[str]) -> str:
 def code(text: str) -> str:
     """Return a text as a code span that shows it letter by letter, also inside a table."""
     # In a code span nothing can be escaped, but a bar ends a cell: it is spelled out like what is invisible.
-    shown = _cut(printable(text)).replace("|", "\\x7c")
+    shown = _cut_text(printable(text)).replace("|", "\\x7c")
     longest = max(map(len, _BACKTICKS.findall(shown)), default=0)
     fence = "`" * (longest + 1)
     padding = " " if shown.startswith("`") or shown.endswith("`") else ""
@@ -101,17 +101,17 @@ def code(text: str) -> str:
 
 def prose(text: str) -> str:
     """Return a text with every character that Markdown or HTML could act upon as an entity."""
-    return _BEGINS_BLOCK.sub(_entity, _inert(text))
+    return _BEGINS_BLOCK.sub(_entity, _inert_text(text))
 
 
-def _inert(text: str) -> str:
-    """Return a text as a cell or behind other text, where it begins no block."""
-    return _ACTIVE.sub(_entity, _cut(printable(text)).strip())
+def _inert_text(text: str) -> str:
+    """Return a text as a cell or after other text, where it begins no block."""
+    return _ACTIVE.sub(_entity, _cut_text(printable(text)).strip())
 
 
 def _entity(match: re.Match[str]) -> str:
     return f"&#{ord(match.group())};"
 
 
-def _cut(text: str) -> str:
+def _cut_text(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"

@@ -14,7 +14,7 @@ from uictest.report.words import printable
 GAP: Final = "  "
 """What stands between two columns."""
 _PIECE: Final = re.compile(r"\[?[^\[\s,/_=-]*[\s,/_=-]*")
-"""A part of a name that is not broken: lines end before an opening bracket and behind what joins words."""
+"""A part of a name that is not broken: lines end before an opening bracket and after what joins words."""
 _COLOURS: Final[dict[Tone, str]] = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
 _END: Final = "\x1b[0m"
 
@@ -25,7 +25,7 @@ def coloured_text(text: str, tone: Tone | None) -> str:
 
 
 def document_lines(document: Document, width: int | None) -> Iterator[str]:
-    """Yield the sections in so many characters, None for a stream that is no terminal."""
+    """Yield the sections in so many characters, None for a stream that is not a terminal."""
     for section in document.sections:
         if isinstance(section, Lines):
             yield from map(printable, section.sentences)
@@ -34,7 +34,7 @@ def document_lines(document: Document, width: int | None) -> Iterator[str]:
 
 
 def titled_lines(sections: Iterable[Table | Lines], width: int | None) -> Iterator[str]:
-    """Yield sections under their titles, a blank line behind each."""
+    """Yield sections under their titles, a blank line after each."""
     for section in sections:
         if isinstance(section, Lines) and section.sentences:
             yield from map(printable, section.sentences)
@@ -51,17 +51,17 @@ def table_lines(table: Table, width: int | None, *, coloured: bool = False) -> I
     columns = _text_columns(table, coloured=coloured)
     common = table.grouped_by
     hidden: dict[str, None] = {}
-    if width is None or common is None or _width(columns) <= width:
-        shown, left_out = _fitted(columns, width)
-        yield from _aligned(shown)
+    if width is None or common is None or _total_width(columns) <= width:
+        shown, left_out = _fitted_columns(columns, width)
+        yield from _aligned_lines(shown)
         hidden.update(dict.fromkeys(left_out))
     else:
         others = [column for column in table.columns if column is not common]
         for text, rows in groupby(table.rows, key=common.cell_text):
             group = _text_columns(replace(table, columns=others, rows=list(rows)), coloured=coloured)
-            shown, left_out = _fitted(group, width)
+            shown, left_out = _fitted_columns(group, width)
             yield from wrapped_name(printable(text), width) if text else ()
-            yield from _aligned(shown)
+            yield from _aligned_lines(shown)
             hidden.update(dict.fromkeys(left_out))
     if hidden:
         yield f"not shown for lack of room: {', '.join(hidden)}; {table.more} has all"
@@ -69,7 +69,7 @@ def table_lines(table: Table, width: int | None, *, coloured: bool = False) -> I
 
 def aligned_rows(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     """Yield the lines of rows of texts; every column has the same width in all rows."""
-    return _aligned([_TextColumn("", list(cells)) for cells in zip(*rows, strict=True)])
+    return _aligned_lines([_TextColumn("", list(cells)) for cells in zip(*rows, strict=True)])
 
 
 def wrapped_name(name: str, width: int) -> list[str]:
@@ -129,11 +129,11 @@ def _text_columns(table: Table, *, coloured: bool) -> list[_TextColumn]:
     ]
 
 
-def _width(columns: Sequence[_TextColumn]) -> int:
+def _total_width(columns: Sequence[_TextColumn]) -> int:
     return sum(column.width for column in columns) + len(GAP) * (len(columns) - 1)
 
 
-def _aligned(columns: Sequence[_TextColumn]) -> Iterator[str]:
+def _aligned_lines(columns: Sequence[_TextColumn]) -> Iterator[str]:
     """Yield the lines of columns side by side; shorter cells end in blank lines."""
     blanks = [" " * column.width for column in columns]
     for row in zip(*(column.cells() for column in columns), strict=True):
@@ -144,7 +144,7 @@ def _aligned(columns: Sequence[_TextColumn]) -> Iterator[str]:
             yield GAP.join(parts).rstrip()
 
 
-def _fitted(columns: Sequence[_TextColumn], width: int | None) -> tuple[list[_TextColumn], list[str]]:
+def _fitted_columns(columns: Sequence[_TextColumn], width: int | None) -> tuple[list[_TextColumn], list[str]]:
     """Return the columns as they fit into so many characters, and the names of those left out.
 
     Columns are left out until every text that wraps has its whole length, or half of the width shared with
@@ -158,13 +158,13 @@ def _fitted(columns: Sequence[_TextColumn], width: int | None) -> tuple[list[_Te
             break
         remaining.remove(column)
         left_out.add(column.title)
-    return _wrapped(remaining, width), [
+    return _wrapped_columns(remaining, width), [
         column.title.partition("\n")[0] for column in columns if column.title in left_out
     ]
 
 
 def _least_width(columns: Sequence[_TextColumn], width: int) -> int:
-    """Return how much room columns need if texts that wrap take at least their share of half the width."""
+    """Return the width that columns need if texts that wrap take at least their share of half the width."""
     share = width // 2 // max(sum(column.wraps for column in columns), 1)
     widths = [
         min(column.width, max(share, column.longest_piece)) if column.wraps else column.width
@@ -173,7 +173,7 @@ def _least_width(columns: Sequence[_TextColumn], width: int) -> int:
     return sum(widths) + len(GAP) * (len(columns) - 1)
 
 
-def _wrapped(columns: Sequence[_TextColumn], width: int) -> list[_TextColumn]:
+def _wrapped_columns(columns: Sequence[_TextColumn], width: int) -> list[_TextColumn]:
     """Return the columns with texts wrapped where there is no room for all of them."""
     fixed = sum(column.width for column in columns if not column.wraps) + len(GAP) * (len(columns) - 1)
     wrapping = sorted((column for column in columns if column.wraps), key=lambda column: column.width)

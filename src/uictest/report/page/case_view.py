@@ -30,10 +30,10 @@ class CaseView(NamedTuple):
     """A case that is drawn.
 
     Args:
-        result: of the case.
+        result: result of the case.
         subject: its description.
-        trace: of the stop that is drawn.
-        margins: of its criteria.
+        trace: trace of the stop that is drawn.
+        margins: margins of its criteria.
         differences: those from the baseline.
         command: what runs the case alone; empty where there is no such command.
 
@@ -61,14 +61,14 @@ def case_view(
 
 
 def stop_json(view: CaseView) -> str:
-    """Return what the script draws the stop of a case from."""
+    """Return the data from which the script draws the stop of a case."""
     marks = [*fault_marks(view.trace), *marks_of(view.result.drawn_stop.criteria, view.trace)]
     recorded = bool(view.subject.recorded)
     return script_json(plot_data(view.result.id, view.trace, marks, recorded=recorded))
 
 
 def stop_notes(view: CaseView) -> Iterator[str]:
-    """Yield what a reader of the plots must know: faults, how the lines were sampled, what is missing."""
+    """Yield the notes for readers of the plots: faults, how the lines were sampled, what is missing."""
     result, trace = view.result.drawn_stop, view.trace
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
     if result.controller_log:

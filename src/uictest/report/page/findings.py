@@ -45,10 +45,10 @@ class Finding(NamedTuple):
 def findings_of(
     content: RunContent, margins: Mapping[str, Margins], commands: Mapping[str, str]
 ) -> Iterator[Finding]:
-    """Yield what is not as expected, series last: their verdict rests on the stops of many cases."""
+    """Yield the cases that are not as expected, then such series: these rest on the stops of many cases."""
     for result in content.ranked:
         if not content.passes(result):
-            yield _of_case(content, result, margins[result.id], commands[result.id])
+            yield _case_finding(content, result, margins[result.id], commands[result.id])
     for series in content.series:
         if not series.met:
             yield Finding(
@@ -61,12 +61,14 @@ def findings_of(
             )
 
 
-def _of_case(content: RunContent, result: evaluation.CaseResult, margins: Margins, command: str) -> Finding:
-    missed = [] if result.met else [margin for margin in margins.judged if _decides(margin, result)]
+def _case_finding(
+    content: RunContent, result: evaluation.CaseResult, margins: Margins, command: str
+) -> Finding:
+    deciding_margins = [] if result.met else [margin for margin in margins.judged if _decides(margin, result)]
     causes = cause_sentences(result)
     settings = content.subject(result.id).settings
     conditions = [f"{name} {text}" for name, text in settings.items() if name in _CONDITIONS]
-    if missed:
+    if deciding_margins:
         differences = difference_sentences(content.differences(result.id), _DIFFERENCES)
         sentences = [statement_sentence(result), *differences]
         conditions.append(f"expected: {result.expect}")
@@ -77,7 +79,7 @@ def _of_case(content: RunContent, result: evaluation.CaseResult, margins: Margin
         content.word(result),
         result.id,
         case_fragment(result.id),
-        missed,
+        deciding_margins,
         sentences,
         command,
         causes,
@@ -121,11 +123,11 @@ def matrix_of(margins: Mapping[str, Margins]) -> Matrix:
         case_id: {margin.verdict.id: margin for margin in (*of_case.judged, *of_case.not_applicable)}
         for case_id, of_case in margins.items()
     }
-    known = dict.fromkeys(criterion for row in rows.values() for criterion in row)
+    all_criteria = dict.fromkeys(criterion for row in rows.values() for criterion in row)
     missed = {margin.verdict.id for row in rows.values() for margin in row.values() if margin.kind == "fail"}
-    criteria = sorted(sorted(known, key=lambda criterion: criterion not in missed)[:_MOST_CRITERIA])
+    criteria = sorted(sorted(all_criteria, key=lambda criterion: criterion not in missed)[:_MOST_CRITERIA])
     cells = {case_id: [row.get(criterion) for criterion in criteria] for case_id, row in rows.items()}
-    return Matrix(criteria, cells, len(known) - len(criteria))
+    return Matrix(criteria, cells, len(all_criteria) - len(criteria))
 
 
 _WITH_VALUE: Final = ("--set", "--seed", "--repeat", "--trust")
@@ -146,12 +148,12 @@ def rerun_commands(content: RunContent) -> dict[str, str]:
 def rerun_command(manifest: RunManifest, file: str, name: str) -> str:
     """Return the command that runs one case or series again; empty where there is none.
 
-    It keeps the options of the run that change a case. Recorded stops are not run, and what a program changed
-    while it loaded cases is not known.
+    The command keeps the options of the run that change a case. There is none for recorded stops, nor for
+    cases that a program loaded: its changes to them are not known.
 
     Args:
-        manifest: of the run.
-        file: of the scenario or series.
+        manifest: manifest of the run, which holds its command line.
+        file: path of the scenario or series file.
         name: id of the case or series.
 
     """

@@ -21,7 +21,7 @@ from uictest.report.verdict_sentences import (
 )
 
 _WORDS: Final = {"pass": "met", "fail": "missed"}
-"""Status of a criterion that was judged -> what stands for a margin that is no share."""
+"""Status of a criterion that was judged -> what stands for a margin that is not a share."""
 
 
 class Margin(NamedTuple):
@@ -115,9 +115,9 @@ def margins_of(
     """Return the margins of a case.
 
     Args:
-        verdicts: of the case.
+        verdicts: verdicts of the case.
         drawn: of the stop that is drawn: of a repeated case this is one of several.
-        trace: of the stop that is drawn; None where none is.
+        trace: trace of the stop that is drawn; None where none is.
         accepted: criterion -> its value in the baseline.
 
     """

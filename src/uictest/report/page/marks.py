@@ -47,10 +47,10 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[M
     """Return the marks of every criterion that applied to a stop, those of failing ones first."""
     marks = []
     for verdict in failing_first(verdicts):
-        decided = _decided(verdict)
+        decided = _shown_when(verdict)
         if decided is None or verdict.status == "not_applicable":
             continue
-        for mark in _marks(verdict, decided, trace):
+        for mark in _verdict_marks(verdict, decided, trace):
             label = printable(mark.label)
             if label and verdict.status == "inconclusive":
                 label += " (inconclusive)"  # in words, not by its colour alone
@@ -68,15 +68,15 @@ def fault_marks(trace: PlotTrace) -> Iterator[Mark]:
             yield Mark(plot, "fault", "" if index else f"fault: {fault.label}", fault.start, fault.end)
 
 
-def _decided(verdict: evaluation.Verdict) -> ShownWhen | None:
+def _shown_when(verdict: evaluation.Verdict) -> ShownWhen | None:
     measure = MEASURES.get(verdict.measure)
     return None if measure is None else measure.decided
 
 
-def _marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotTrace) -> Iterator[Mark]:
+def _verdict_marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotTrace) -> Iterator[Mark]:
     moments = trace.moments.get(verdict.id, Moments())
     if decided.across:
-        yield from _band(verdict, decided)
+        yield from _band_marks(verdict, decided)
     elif decided.how == "end":
         if verdict.status != "pass":
             label = value_and_limits(verdict)
@@ -85,15 +85,15 @@ def _marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotTrace) ->
                 label = f"{decided.word} {'an unknown speed' if speed is None else f'{speed.y[-1]:.3g} km/h'}"
             yield Mark(decided.plot, "instant", f"{verdict.id}: {label}", trace.end, trace.end)
     elif decided.how == "span":
-        yield from _span(verdict, decided, moments)
+        yield from _span_marks(verdict, decided, moments)
     elif decided.how == "extreme":
-        yield from _extremes(verdict, decided, moments)
+        yield from _extreme_marks(verdict, decided, moments)
     elif verdict.status != "pass" or decided.how != "outer":
-        yield from _intervals(verdict, decided, moments)
+        yield from _interval_marks(verdict, decided, moments)
 
 
-def _band(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
-    """Yield what lies within the bounds of a distance or a time and, unless it passed, what was reached."""
+def _band_marks(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
+    """Yield the band within the bounds of a distance or a time and, unless it passed, the value reached."""
     along: Along = "distance" if decided.along_distance else "time"
     label = f"{verdict.id}: {limits(verdict, word='')}"
     yield Mark(decided.across, "band", label, verdict.lower, verdict.upper, along=along)
@@ -101,7 +101,7 @@ def _band(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
         yield Mark(decided.across, "instant", quantity(value, verdict.unit), value, value, along=along)
 
 
-def _span(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
+def _span_marks(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
     """Yield a mean with its bounds over its span; of another value, unless it passed, the span alone."""
     start, end = moments.span or (None, None)
     if (decided.span or decided.down_to) and (start is None or end is None):
@@ -114,20 +114,27 @@ def _span(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> 
     if start is not None and end is not None:
         yield Mark("speed", "window", f"{decided.span_name}, {number(end - start)} s", start, end)
         yield Mark(decided.plot, "window", "", start, end)
-    yield from _limits(verdict, decided.plot, start, end)
+    yield from _limit_marks(verdict, decided.plot, start, end)
     if verdict.value is not None:
         label = f"{decided.word} {quantity(verdict.value, verdict.unit)}"
-        yield Mark(decided.plot, "mean", label, start, end, verdict.value / _scale(verdict, decided.plot))
+        yield Mark(
+            decided.plot,
+            "mean",
+            label,
+            start,
+            end,
+            verdict.value / _units_per_plot_unit(verdict, decided.plot),
+        )
 
 
-def _extremes(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
+def _extreme_marks(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
     """Yield the bounds, and the extreme of the train or, unless it passed, of each wheelset."""
     plot = decided.plot
     if decided.level:
-        yield from _limits(verdict, plot, None, moments.span[1] if moments.span else None)
+        yield from _limit_marks(verdict, plot, None, moments.span[1] if moments.span else None)
     for n, (time, height) in moments.extremes.items():
         if n == TRAIN and verdict.value is not None:
-            y = verdict.value / _scale(verdict, plot) if decided.level else height
+            y = verdict.value / _units_per_plot_unit(verdict, plot) if decided.level else height
             label = f"{decided.word} {quantity(verdict.value, verdict.unit)}".lstrip()
             yield Mark(plot, "point", label, time, time, y)
         elif n != TRAIN and verdict.status != "pass":
@@ -149,7 +156,7 @@ def _misses(verdict: evaluation.Verdict, value: float) -> bool:
     return any(margin < 0.0 or (strict and margin == 0.0) for margin in margins)
 
 
-def _intervals(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
+def _interval_marks(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
     """Yield intervals in a strip; the longest of the wheelset that decides carries a value that did not pass.
 
     A panel has no room for more than the longest.
@@ -171,16 +178,18 @@ def _intervals(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments
             yield Mark(decided.plot, "window", own_label, first, last)
 
 
-def _limits(verdict: evaluation.Verdict, plot: str, start: float | None, end: float | None) -> Iterator[Mark]:
+def _limit_marks(
+    verdict: evaluation.Verdict, plot: str, start: float | None, end: float | None
+) -> Iterator[Mark]:
     """Yield the bounds of a criterion as level lines."""
     for bound in (verdict.lower, verdict.upper):
         if bound is not None and math.isfinite(bound):
             label = f"limit {quantity(bound, verdict.unit)}"
-            yield Mark(plot, "limit", label, start, end, bound / _scale(verdict, plot))
+            yield Mark(plot, "limit", label, start, end, bound / _units_per_plot_unit(verdict, plot))
 
 
-def _scale(verdict: evaluation.Verdict, plot: str) -> float:
-    """Return how many units of the criterion one unit of the plot is."""
+def _units_per_plot_unit(verdict: evaluation.Verdict, plot: str) -> float:
+    """Return the number of units of the criterion in one unit of the plot."""
     return SIZES.get(_UNITS[plot], 1.0) / SIZES.get(verdict.unit, 1.0)
 
 
@@ -216,8 +225,8 @@ class Taken(NamedTuple):
 
 
 def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
-    """Return where the value of a criterion was taken; None where the plots show no such place."""
-    decided, moments = _decided(verdict), trace.moments.get(verdict.id, Moments())
+    """Return the instant at which the value of a criterion was taken; None where no plot shows it."""
+    decided, moments = _shown_when(verdict), trace.moments.get(verdict.id, Moments())
     if decided is None or verdict.value is None:
         return None
     if decided.how == "end":

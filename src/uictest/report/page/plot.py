@@ -23,7 +23,7 @@ X_PIXELS: Final = (52.0, 402.0)
 Y_PIXELS: Final = (166.0, 26.0)
 """Ends of its axis up."""
 ROW_PIXELS: Final = (260.0, 880.0)
-"""Ends of the axis across of a plot of rows, beside their names."""
+"""Ends of the axis across of a plot of rows, to the right of their names."""
 _ROW: Final = 20.0
 """Height of a row, px; chosen."""
 _AIR: Final = 0.04
@@ -92,7 +92,7 @@ def round_step(step: float) -> float:
 
 
 def span(groups: Iterable[NDArray[np.float64]], include: Iterable[float]) -> tuple[float, float]:
-    """Return what an axis must span: all finite values, and those to be included, with a little air."""
+    """Return the ends of an axis: around all finite values, and those to include, with a little air."""
     values = [np.asarray(list(include), dtype=np.float64), *groups]
     finite = np.concatenate([group[np.isfinite(group)] for group in values])
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
@@ -146,7 +146,7 @@ class Plot:
         x_ticks: upright lines with their labels.
         y_ticks: level lines with their labels, or names of rows.
         shapes: in the frame, in the order in which they are painted.
-        labels: in or beside the frame.
+        labels: labels in the frame or next to it.
         across: ends of the frame in pixels.
         up: its lower and its upper end.
 
@@ -163,14 +163,14 @@ class Plot:
     up: tuple[float, float] = Y_PIXELS
 
 
-def line(points: Iterable[tuple[float, float]]) -> str:
-    """Return the path through points in pixels, with a gap where one is NaN."""
+def polyline_path(points: Iterable[tuple[float, float]]) -> str:
+    """Return the path through points in pixels, with a gap where one is not finite."""
     path, drawing = "", False
     for x, y in points:
-        known = x == x and y == y
-        if known:
+        is_finite = math.isfinite(x) and math.isfinite(y)
+        if is_finite:
             path += f"{'L' if drawing else 'M'}{x:.1f} {y:.1f}"
-        drawing = known
+        drawing = is_finite
     return path
 
 
@@ -217,8 +217,8 @@ _WIDEST_FOREST: Final = 200.0
 def forest(effects: Iterable[Effect], words: str, x_title: str) -> Plot | None:
     """Return means with their intervals on one axis, the largest first; None where there is none.
 
-    The mean is filled where its interval leaves out 0, and stands beside the name where the axis does not
-    reach it. Wider limits are a band behind.
+    The mean is filled where its interval leaves out 0, and is written after the name where the axis does not
+    reach it. Wider limits are a band in the background.
     """
     largest_first = sorted(effects, key=lambda effect: -abs(effect.mean))
     if not largest_first:

@@ -47,17 +47,17 @@ def series_anchor(series_id: str) -> str:
 
 
 def fragment(anchor: str) -> str:
-    """Return an anchor as it stands behind the `#` of a link: percent-encoded."""
+    """Return an anchor as it stands after the `#` of a link: percent-encoded."""
     return quote(anchor, safe="")
 
 
 def case_fragment(case_id: str) -> str:
-    """Return what stands behind the `#` of a link to a case."""
+    """Return the fragment, after the `#`, of a link to a case."""
     return fragment(case_anchor(case_id))
 
 
 def series_fragment(series_id: str) -> str:
-    """Return what stands behind the `#` of a link to a series."""
+    """Return the fragment, after the `#`, of a link to a series."""
     return fragment(series_anchor(series_id))
 
 
@@ -115,7 +115,7 @@ _STYLES: Final = (
 
 
 def badge_tone(word: str) -> Tone:
-    """Return the tone of the badge of a word: no test, or not judged, is no failure."""
+    """Return the tone of the badge of a word: no test, or not judged, is not a failure."""
     return "odd" if word in ("invalid", "inconclusive") else tone(word)
 
 
@@ -135,7 +135,7 @@ def render(template: str, *, with_plots: bool, running_head: str = "", **context
     Args:
         template: its name.
         with_plots: put the plotting script into the page.
-        running_head: what stands at the head of every printed page, behind the name of the program.
+        running_head: what stands at the head of every printed page, after the name of the program.
         context: what the template is filled in with.
 
     """

@@ -26,7 +26,7 @@ def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     results, baseline = content.results, content.baseline
     commands = rerun_commands(content)
-    drawn = _drawn(content, commands)
+    drawn = _views_of_drawn_cases(content, commands)
     drawn_ids = {view.result.id for view in drawn}
     # Those of drawn cases have the instants of their values.
     of_drawn = {view.result.id: view.margins for view in drawn}
@@ -75,7 +75,7 @@ def page_html(content: RunContent) -> str:
 
 
 def _of_series(content: RunContent) -> dict[str, Any]:
-    """Return what the page shows of series; what is not as expected stands first."""
+    """Return the data of the series for the page, those not as expected first."""
     if not content.series:
         return {"series": [], "series_first": False, "series_keys": {}}
     from uictest.report.page.series_view import SERIES_WORDS
@@ -90,11 +90,11 @@ def _of_series(content: RunContent) -> dict[str, Any]:
     }
 
 
-def _drawn(content: RunContent, commands: Mapping[str, str]) -> list[CaseView]:
+def _views_of_drawn_cases(content: RunContent, commands: Mapping[str, str]) -> list[CaseView]:
     """Return the cases that are drawn, those not as expected first."""
     ranked = sorted(worst_first(content.all_results), key=content.passes)
     traced = [result for result in ranked if result.id in content.traces]
-    shown = {result.id for result in drawn_cases(traced, content.drawn_first)}
+    drawn_ids = {result.id for result in drawn_cases(traced, content.drawn_first)}
     accepted = content.baseline.values if content.baseline else {}
     return [
         case_view(
@@ -106,12 +106,12 @@ def _drawn(content: RunContent, commands: Mapping[str, str]) -> list[CaseView]:
             accepted.get(result.id, {}),
         )
         for result in traced
-        if result.id in shown
+        if result.id in drawn_ids
     ]
 
 
 def _not_drawn(content: RunContent, drawn_ids: set[str]) -> str:
-    """Return how many cases have plots, which, and how others get some; empty where all have."""
+    """Return the note on which cases have plots and how others get some; empty where all have."""
     cases, drawn = len(content.all_results), len(drawn_ids)
     if cases == drawn:
         return ""
@@ -152,12 +152,12 @@ def maps_of(results: Iterable[evaluation.CaseResult]) -> Iterator[CaseMap]:
         row_key, column_key = varied
         by_values = {(case.parameters[row_key], case.parameters[column_key]): case for case in cases}
         if len(by_values) == len(cases):
-            rows, columns = (_ordered(key, cases) for key in varied)
+            rows, columns = (_texts_by_number(key, cases) for key in varied)
             cells = [[by_values.get((row, column)) for column in columns] for row in rows]
             yield CaseMap(scenario, row_key, column_key, rows, columns, cells)
 
 
-def _ordered(key: str, cases: Iterable[evaluation.CaseResult]) -> list[str]:
+def _texts_by_number(key: str, cases: Iterable[evaluation.CaseResult]) -> list[str]:
     """Return the texts of a swept key by their numbers, where all of them are; else as they came."""
     numbers: dict[str, float] = {}
     for case in cases:

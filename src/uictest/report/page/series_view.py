@@ -31,7 +31,7 @@ _OF_DISTANCE: Final = ("braking_distance", "median_braking_distance", "worst_bra
 
 
 def series_badge(result: SeriesResult) -> str:
-    """Return the word of a series, and whether a verdict behind it is not certain."""
+    """Return the word of a series, and whether one of its verdicts is not certain."""
     word = result_word(result)
     return f"{word}, not certain" if is_uncertain(result) else word
 
@@ -74,40 +74,40 @@ def measures_table(result: SeriesResult) -> Table:
 def distance_plots(result: SeriesResult) -> list[Plot]:
     """Return the distances from each speed, on each rail, as dots; none where no stop has any."""
     stops = observed_stops(result.cases, result.speed_tolerance_kmh)
-    plots = [_plot(result, speed, stops) for speed in result.speeds]
+    plots = [_speed_plot(result, speed, stops) for speed in result.speeds]
     return [plot for plot in plots if plot is not None]
 
 
-def _plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop]) -> Plot | None:
+def _speed_plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop]) -> Plot | None:
     at_speed = [
         stop
         for stop in stops
         if stop.speed_kmh == speed.speed_kmh and (stop.role == "dry" or speed.rail in ("", stop.rail))
     ]
-    known = [stop for stop in at_speed if math.isfinite(_distance(stop))]
-    if not known:
+    with_distance = [stop for stop in at_speed if math.isfinite(_braking_distance(stop))]
+    if not with_distance:
         return None
-    marked = list(_marked(result, at_speed, speed.rail))
-    ends = [*map(_distance, known), *(distance for distance, _, _ in marked)]
+    marked = list(_marked_distances(result, at_speed, speed.rail))
+    ends = [*map(_braking_distance, with_distance), *(distance for distance, _, _ in marked)]
     air = 0.04 * (max(ends) - min(ends)) or 1.0
     axis = Axis(min(ends) - air, max(ends) + air, *ROW_PIXELS)
-    names = _labels(result, {stop.case for stop in at_speed})
+    names = _case_labels(result, {stop.case for stop in at_speed})
     top, bottom = row_at(0) - 10, row_at(len(names)) - 10
     shapes, labels = [], []
     for distance, label, kind in marked:
         shapes.append(Shape(kind, f"M{axis.at(distance):.1f} {top}V{bottom}"))
         labels.append(Label(axis.at(distance), top - 6, label))
     for index, case_id in enumerate(names):
-        for stop in known:
+        for stop in with_distance:
             if stop.case == case_id:
                 kind = "dot" if stop.counts else "dot uncounted"
-                shapes.append(Shape(kind, dot(axis.at(_distance(stop)), row_at(index), 3.5)))
+                shapes.append(Shape(kind, dot(axis.at(_braking_distance(stop)), row_at(index), 3.5)))
     words = f"Braking distances from {speed.place}, one dot per stop; tables/series-stops.csv has the numbers"
     x_title = f"braking distance from {speed.place}, m"
     return rows_plot(list(names.values()), shapes, axis.tick_marks(6), words, x_title, labels)
 
 
-def _labels(result: SeriesResult, names: Collection[str]) -> dict[str, str]:
+def _case_labels(result: SeriesResult, names: Collection[str]) -> dict[str, str]:
     """Return a short name for every case named: its own, and the values by which wet ones differ."""
     cases = [stops for stops in result.cases if stops.case.id in names]
     wet = [stops.case.parameters for stops in cases if stops.role == "wet"]
@@ -115,24 +115,26 @@ def _labels(result: SeriesResult, names: Collection[str]) -> dict[str, str]:
     varied = [key for key in keys if len({parameters.get(key) for parameters in wet}) > 1]
     labels = {}
     for case in (stops.case for stops in cases):
-        head, _, rest = case.id.removeprefix(f"{result.id}.").partition("[")
+        head, _, suffix = case.id.removeprefix(f"{result.id}.").partition("[")
         values = [
             f"{key.rpartition('.')[2]} {case.parameters[key]}" for key in varied if key in case.parameters
         ]
-        labels[case.id] = " ".join([f"{head}{rest.rpartition(']')[2]}", *values])
+        labels[case.id] = " ".join([f"{head}{suffix.rpartition(']')[2]}", *values])
     return labels
 
 
-def _distance(stop: SeriesStop) -> float:
+def _braking_distance(stop: SeriesStop) -> float:
     return stop.figures.measures.get(_DISTANCE, math.nan)
 
 
-def _marked(result: SeriesResult, stops: Sequence[SeriesStop], rail: str) -> Iterator[tuple[float, str, str]]:
+def _marked_distances(
+    result: SeriesResult, stops: Sequence[SeriesStop], rail: str
+) -> Iterator[tuple[float, str, str]]:
     """Yield the mean of the dry stops, and every bound that refers to it and decides on this rail.
 
     Each is a distance, its label, and the class of its line.
     """
-    dry = [_distance(stop) for stop in stops if stop.role == "dry" and stop.counts]
+    dry = [_braking_distance(stop) for stop in stops if stop.role == "dry" and stop.counts]
     reference = math.fsum(dry) / len(dry) if dry else math.nan
     if not math.isfinite(reference):
         return

@@ -80,7 +80,7 @@ def panels_over_time(trace: PlotTrace, panels: Sequence[tuple[Panel, Sequence[Pl
     for panel in in_order([panel for panel, _ in panels]):
         top = _TITLE + (drawn[-1].bottom + _GAP if drawn else 0.0)
         if isinstance(panel, Strip):
-            drawn += _strip(panel, trace, time, top)
+            drawn += _strip_panels(panel, trace, time, top)
         else:
             drawn += _panel(panel, lines[panel.key], trace, time, top)
     return Drawing((drawn[-1].bottom + _GAP if drawn else 0.0) + _BELOW, drawn)
@@ -107,7 +107,7 @@ def _panel(
     yield DrawnPanel(panel.key, title, top, bottom, time.tick_marks(10), y.tick_marks(4), paths)
 
 
-def _strip(strip: Strip, trace: PlotTrace, time: Axis, top: float) -> Iterator[DrawnPanel]:
+def _strip_panels(strip: Strip, trace: PlotTrace, time: Axis, top: float) -> Iterator[DrawnPanel]:
     bottom = top + len(WHEELSETS) * _LANE * len(strip.lanes)
     row = Axis(0.5, len(WHEELSETS) + 0.5, top, bottom)
     paths = []
@@ -136,7 +136,7 @@ def area_over_time(x: Series, low: Series, high: Series) -> str:
     upper = np.fmin.reduceat(high, columns)  # the larger value has the smaller pixel
     lower = np.fmax.reduceat(low, columns)
     outline = np.column_stack([[*x[columns], *x[columns][::-1]], [*upper, *lower[::-1]]])
-    return f"{_stroke(np.rint(outline).astype(np.int64))}z"
+    return f"{_stroke_path(np.rint(outline).astype(np.int64))}z"
 
 
 def path_over_time(x: Series, y: Series) -> str:
@@ -145,10 +145,10 @@ def path_over_time(x: Series, y: Series) -> str:
     known = np.isfinite(x[rows]) & np.isfinite(y[rows])
     points = np.rint(np.column_stack([x[rows], np.where(known, y[rows], 0.0)])).astype(np.int64)
     ends = np.flatnonzero(np.diff(known, prepend=False, append=False))
-    return "".join(_stroke(points[start:end]) for start, end in ends.reshape(-1, 2).tolist())
+    return "".join(_stroke_path(points[start:end]) for start, end in ends.reshape(-1, 2).tolist())
 
 
-def _stroke(points: NDArray[np.int64]) -> str:
+def _stroke_path(points: NDArray[np.int64]) -> str:
     steps = np.diff(points, axis=0)
     moves = [f"l{across} {up}" for across, up in steps[steps.any(axis=1)].tolist()]
     return f"M{points[0, 0]} {points[0, 1]}" + "".join(moves)
@@ -172,7 +172,7 @@ def script_json(content: Any) -> str:
 
 
 def plots_json() -> str:
-    """Return what all cases have in common: panels, loops and their lines."""
+    """Return the data that all cases share: panels, loops and their lines."""
     loops = [
         loop._asdict() | {"lines": [line._asdict() | {"over": across} for across, line in loop_lines(loop)]}
         for loop in LOOPS
@@ -201,7 +201,7 @@ def panel_form(panel: Panel, lines: Sequence[PlotLine]) -> dict[str, object]:
 def plot_data(
     title: str, trace: PlotTrace, marks: Sequence[Mark] = (), *, recorded: bool = False
 ) -> dict[str, Any]:
-    """Return what the script draws a stop from; `recorded` where the stop was not simulated."""
+    """Return the data from which the script draws a stop; `recorded` where the stop was not simulated."""
     steps = {name: PLOT_QUANTITIES[key_of(name)].step for name in trace.curves}
     states = {name: Curve(time, state.astype(np.float64)) for name, (time, state) in trace.states.items()}
     data: dict[str, Any] = {}
@@ -223,7 +223,7 @@ def plot_data(
 
 
 def sampling_text(trace: PlotTrace) -> str:
-    """Return how the points of a line were taken from the stop."""
+    """Return the sentence on how the points of a line were taken from the stop."""
     is_long = trace.interval * MOST_SAMPLES < trace.end - trace.start
     part = milliseconds((trace.end - trace.start) / BINS)
     drawn = f" Drawn through the smallest and the largest sample of every {part}." if is_long else ""
@@ -268,8 +268,8 @@ def packed(
     x_scales = {key: _scale_of_times(x, interval) for key, x in grids.items()}
     y_scales = {name: _scale(curve.y, (steps or {}).get(name, 0.0)) for name, curve in curves.items()}
     parts = [
-        *(_differences(x, x_scales[key]) for key, x in grids.items()),
-        *(_differences(curve.y, y_scales[name]) for name, curve in curves.items()),
+        *(_scaled_differences(x, x_scales[key]) for key, x in grids.items()),
+        *(_scaled_differences(curve.y, y_scales[name]) for name, curve in curves.items()),
     ]
     data = np.concatenate(parts).astype("<i2") if parts else np.zeros(0, "<i2")
     deflated = zlib.compress(data.view(np.uint8).reshape(-1, 2).T.tobytes(), 6)
@@ -298,7 +298,7 @@ def _scale_of_times(times: Series, interval: float) -> Scale:
     return _scale(times)
 
 
-def _differences(series: Series, scale: Scale) -> NDArray[np.int64]:
+def _scaled_differences(series: Series, scale: Scale) -> NDArray[np.int64]:
     """Return each number of a series less the one before it."""
     offset, step = scale
     known = np.isfinite(series)

@@ -18,7 +18,7 @@ from uictest.report.page.plot import (
     Shape,
     axis_title,
     dot,
-    line,
+    polyline_path,
     spanned,
 )
 from uictest.report.sweep.result import Frontier, FrontierScan, OutcomeCount, Trend
@@ -39,7 +39,7 @@ def _line_shapes(
     number: int, points: Sequence[tuple[float, float]], words: Sequence[str], missed: Collection[int] = ()
 ) -> Iterator[Shape]:
     """Yield a line through points in pixels, and each of them with its words; `missed` are filled."""
-    yield Shape(f"line role-series-{number}", line(points))
+    yield Shape(f"line role-series-{number}", polyline_path(points))
     for index, ((x, y), text) in enumerate(zip(points, words, strict=True)):
         if y == y:
             kind = f"point role-series-{number}{' missed' if index in missed else ''}"
@@ -70,7 +70,7 @@ def cell_lines(cells: MapCells, units: Mapping[str, str], logarithmic: Collectio
 
     """
     for second, first in ((cells.rows, cells.columns), (cells.columns, cells.rows)):
-        numbers = _numbers(first)
+        numbers = _axis_numbers(first)
         if numbers and 2 <= len(second.groups) <= MOST_LINES and not second.is_folded:
             break
     else:
@@ -103,12 +103,12 @@ def cell_lines(cells: MapCells, units: Mapping[str, str], logarithmic: Collectio
     return CellLines(x_title, second.parameter, of_cases, _key_of_lines(labels), plots)
 
 
-def _numbers(axis: CellAxis) -> list[float]:
+def _axis_numbers(axis: CellAxis) -> list[float]:
     """Return the values of an axis; nothing where they are no numbers of one unit, or fewer than two."""
     values = [group[0].number for group in axis.groups]
-    known = [value for value in values if value is not None]
+    numbers = [value for value in values if value is not None]
     units = {group[0].unit for group in axis.groups}
-    return known if len(known) == len(values) >= 2 and len(units) == 1 and not axis.is_folded else []
+    return numbers if len(numbers) == len(values) >= 2 and len(units) == 1 and not axis.is_folded else []
 
 
 class _TrendPoint(NamedTuple):
@@ -138,7 +138,7 @@ def trend_plot(trend: Trend, counts: Sequence[OutcomeCount], *, logarithmic: boo
     if any(point.cases > 1 for point in points):
         upper = [(x.at(point.value), y.at(point.maximum)) for point in points]
         lower = [(x.at(point.value), y.at(point.minimum)) for point in reversed(points)]
-        shapes.append(Shape("spread", f"{line([*upper, *lower])}Z"))
+        shapes.append(Shape("spread", f"{polyline_path([*upper, *lower])}Z"))
     words = []
     for point in points:
         reach = f" ({point.minimum:.4g} .. {point.maximum:.4g})" if point.cases > 1 else ""
@@ -196,7 +196,7 @@ def frontier_plot(frontier: Frontier, logarithmic: Collection[str] = ()) -> Fron
     key = _numeric_key(frontier.scans)
     if key is None:
         return None
-    scanned = sorted({_number(scan, key) for scan in frontier.scans})
+    scanned = sorted({_circumstance_number(scan, key) for scan in frontier.scans})
     # One line for each combination of the other parameters.
     flips: dict[str, list[_DrawnFlip]] = {}
     units = []
@@ -207,7 +207,7 @@ def frontier_plot(frontier: Frontier, logarithmic: Collection[str] = ()) -> Fron
             units.append(flip.low.unit)
             if flip.low.number is not None and flip.high.number is not None:
                 middle = 0.5 * (flip.low.number + flip.high.number)
-                drawn = _DrawnFlip(_number(scan, key), middle, flip.met_at_low, flip_words(flip))
+                drawn = _DrawnFlip(_circumstance_number(scan, key), middle, flip.met_at_low, flip_words(flip))
                 flips.setdefault(combination, []).append(drawn)
     if not flips:
         return None
@@ -220,7 +220,7 @@ def frontier_plot(frontier: Frontier, logarithmic: Collection[str] = ()) -> Fron
         path = ""
         for direction in (False, True):
             heights = {drawn.value: drawn.middle for drawn in of_combination if drawn.met_at_low == direction}
-            path += line((x.at(value), y.at(heights.get(value, math.nan))) for value in scanned)
+            path += polyline_path((x.at(value), y.at(heights.get(value, math.nan))) for value in scanned)
         shapes.append(Shape(f"line role-series-{number}", path))
         for drawn in sorted(of_combination, key=lambda drawn: drawn.value):
             point, words = dot(x.at(drawn.value), y.at(drawn.middle)), f"{drawn.value:g}: {drawn.words}"
@@ -241,7 +241,7 @@ def _numeric_key(scans: Sequence[FrontierScan]) -> str | None:
     return None
 
 
-def _number(scan: FrontierScan, key: str) -> float:
+def _circumstance_number(scan: FrontierScan, key: str) -> float:
     number = scan.circumstances[key].number
     assert number is not None  # a numeric key has numbers only
     return number

@@ -109,14 +109,14 @@ def maps_of_pair(
     return PairOfParameters(f"{rows.parameter} (down) against {columns.parameter} (across)", maps, notes)
 
 
-_Shown = tuple[str, str, str]
+_ShownCell = tuple[str, str, str]
 """Text, class and colour of a cell."""
 
 
-def _of_verdicts(cells: MapCells, *, by_outcome: bool) -> Callable[[int, int], _Shown]:
-    """Return what shows a cell: the outcome of its only case, else the share of its cases that are met."""
+def _of_verdicts(cells: MapCells, *, by_outcome: bool) -> Callable[[int, int], _ShownCell]:
+    """Return the painter of cells by the outcome of their only case, else by the share of cases met."""
 
-    def shown(row: int, column: int) -> _Shown:
+    def shown(row: int, column: int) -> _ShownCell:
         met, cases = int(cells.met[row, column]), int(cells.cases[row, column])
         text = share_words(met, cases)
         if by_outcome:
@@ -126,8 +126,8 @@ def _of_verdicts(cells: MapCells, *, by_outcome: bool) -> Callable[[int, int], _
     return shown
 
 
-def _of_means(means: NDArray[np.float64]) -> Callable[[int, int], _Shown]:
-    """Return what shows a cell: the mean of a measure on its colour."""
+def _of_means(means: NDArray[np.float64]) -> Callable[[int, int], _ShownCell]:
+    """Return the painter of cells by the mean of a measure."""
     scale = ColourScale.of(means)
     known = means[np.isfinite(means)]
     digits = 4
@@ -136,7 +136,7 @@ def _of_means(means: NDArray[np.float64]) -> Callable[[int, int], _Shown]:
         largest = math.floor(math.log10(np.abs(known).max()))
         digits = max(digits, min(largest + 1 + math.ceil(math.log10(20.0 / width)), _MOST_DIGITS))
 
-    def shown(row: int, column: int) -> _Shown:
+    def shown(row: int, column: int) -> _ShownCell:
         mean = float(means[row, column])
         if math.isnan(mean):
             return NO_VALUE, "no-value", ""
@@ -150,7 +150,7 @@ def _map(
     cells: MapCells,
     measure: str,
     title: str,
-    shown: Callable[[int, int], _Shown],
+    shown: Callable[[int, int], _ShownCell],
     stops: Mapping[tuple[int, int], str],
 ) -> ShownMap:
     down, across = cells.rows.parameter, cells.columns.parameter
@@ -161,7 +161,7 @@ def _map(
         for column in range(len(columns)):
             text, kind, colour = shown(row, column) if cells.cases[row, column] else ("", "no-case", "")
             kinds = " ".join([kind, *boundaries(cells.verdicts, row, column)])
-            detail, stop = _detail(cells, row, column), stops.get((row, column), "")
+            detail, stop = _cell_detail(cells, row, column), stops.get((row, column), "")
             row_cells.append(ShownCell(text, kinds, colour, detail, stop))
         rows.append((short_label(group), row_cells))
     names = ("-".join(printable(name).split()) for name in (measure, down, across))
@@ -182,7 +182,7 @@ def boundaries(verdicts: NDArray[np.int8], row: int, column: int) -> list[str]:
     ]
 
 
-def _detail(cells: MapCells, row: int, column: int) -> str:
+def _cell_detail(cells: MapCells, row: int, column: int) -> str:
     """Return the cases of a cell in words: how many met their expectation, and their outcomes."""
     count = int(cells.cases[row, column])
     if not count:

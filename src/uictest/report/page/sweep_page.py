@@ -42,7 +42,7 @@ def sweep_page_html(content: SweepContent) -> str:
     missed = next((view.result for view in drawn if not view.result.met), None)
     counted_values = (count.value for counts in result.rates.values() for count in counts)
     sampled = any(isinstance(value, DrawnInterval) for value in counted_values)
-    cells = _cells(content)
+    cells = _mapped_cells(content)
     units = {measure.name: measure.unit for measure in reported_columns(result)}
     # A cell of a sample has few cases, and values of its own: what a parameter does, its trends show.
     lines = [None if sampled else cell_lines(pair, units, result.logarithmic) for pair in cells]
@@ -70,9 +70,9 @@ def sweep_page_html(content: SweepContent) -> str:
         maps=[pair for pair in maps if pair],
         maps_left_out=maps_left_out(content),
         lines=[pair for pair in lines if pair],
-        rates={} if len(result.varied) == 2 and maps and maps[0] else _rates(result),
+        rates={} if len(result.varied) == 2 and maps and maps[0] else _shown_rates(result),
         frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
-        trends={} if any(lines) else _trends(result),
+        trends={} if any(lines) else _trend_plots(result),
         notable=notable_table(result),
         sensitivities=sensitivity_table(result),
         drawn=drawn,
@@ -91,7 +91,7 @@ def sweep_page_html(content: SweepContent) -> str:
     )
 
 
-def _cells(content: SweepContent) -> list[MapCells]:
+def _mapped_cells(content: SweepContent) -> list[MapCells]:
     """Return the cells of every pair of parameters that is mapped."""
     result, rows = content.result, SummaryRows(content.folder)
     measures = reported_columns(result)
@@ -118,14 +118,14 @@ def _stops_in(
     return stops
 
 
-def _rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
+def _shown_rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
     """Return the cases met by value, of parameters with few values; none where all cases are met."""
     if result.met == result.cases:
         return {}
     return {key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES}
 
 
-def _trends(result: SweepResult) -> dict[str, list[Plot]]:
+def _trend_plots(result: SweepResult) -> dict[str, list[Plot]]:
     """Return the plots of each parameter that has any."""
     plots: dict[str, list[Plot]] = {}
     for trend in result.trends:
@@ -137,7 +137,7 @@ def _trends(result: SweepResult) -> dict[str, list[Plot]]:
 
 
 def maps_left_out(content: SweepContent) -> str:
-    """Return why there are no maps of some parameters; empty where nothing is left out."""
+    """Return the note on parameters without maps; empty where nothing is left out."""
     keys = [key for key in content.result.varied if len(content.result.rates.get(key, ())) > 1]
     if not SummaryRows(content.folder).exists:
         return "Without summary.parquet there are no maps of other parameters and measures"

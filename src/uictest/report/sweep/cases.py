@@ -80,7 +80,7 @@ class SummaryRows:
         return list(dict.fromkeys([*columns, "outcome", "met", *of_measures]))
 
     def bins(self, table: pa.Table, key: str, counts: Sequence[OutcomeCount]) -> NDArray[np.int64]:
-        """Return which of the values that a parameter is counted by each row has."""
+        """Return the index, for each row, of its value among those that a parameter is counted by."""
         values = [count.value for count in counts]
         intervals = [value for value in values if isinstance(value, DrawnInterval)]
         if intervals:

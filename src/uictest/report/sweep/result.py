@@ -34,7 +34,7 @@ class SweepDomain:
 
     Args:
         validation: its name.
-        sha256: of its file.
+        sha256: SHA-256 of its file.
         outside: number of cases with any condition beyond it.
         conditions: those conditions, the one of most cases first; a case may be in several.
     """
@@ -69,11 +69,11 @@ class SurveyStep:
     """The steps of a survey.
 
     Args:
-        time_step: that the cases were simulated in, as written.
+        time_step: time step that the cases were simulated in, as written.
         regular_step: that those were repeated in of which a value lay within its bias of a limit, and those
             that the survey step could not simulate or decide, as written.
         repeated: number of these cases.
-        biases: of the measures that are judged or mapped.
+        biases: biases of the measures that are judged or mapped.
         unknown: names of those whose bias is not known: every case in which one is judged is repeated.
     """
 
@@ -247,14 +247,14 @@ class SweepResult:
     """The result of a finished sweep.
 
     Args:
-        name: of the sweep.
+        name: name of the sweep.
         title: one line, or empty.
         cases: number of cases.
         met: number of cases that met their expectation.
         outcomes: number of cases by outcome.
         missed: the first cases that did not meet their expectation.
         rates: counts for each value of each parameter, by key.
-        maps: of the cases met and of measures.
+        maps: maps of the cases met and of measures.
         measures: the smallest, mean and largest value of each.
         trends: measures along parameters.
         base: the parts of the case that is varied, by role.
@@ -262,7 +262,7 @@ class SweepResult:
         logarithmic: those of them that were spaced or drawn logarithmically.
         requirements: ids of those that the varied case or its criteria verify.
         test_case: its id in a test management tool, or empty.
-        controllers: of all cars of all cases, each once.
+        controllers: controllers of all cars of all cases, each once.
         nominal: the case that is varied, or all cars of the train, with how firm the verdicts are; none where
             nobody asked.
         worst: the cases most worth looking at, those not met first.
@@ -332,7 +332,7 @@ class SweepContent:
     """What a report of a sweep shows.
 
     Args:
-        folder: of the sweep; it holds the tables.
+        folder: folder of the sweep; it holds the tables.
         result: what `results.json` holds.
         manifest: where the results come from.
         traces: what there is to draw of the worst cases, by id.
@@ -377,7 +377,7 @@ _OF_ONE_RESULT: Final = ("tables/*.csv", WITH_TEST_PROPERTIES, "index.html", "re
 def write_sweep_result(folder: Path, result: SweepResult) -> str:
     """Write `results.json` and return its text.
 
-    What an earlier, other result of the sweep left in the folder is removed: beside the new one it would lie.
+    Files that an earlier, other result of the sweep left in the folder are removed: they would be wrong.
     Raises OSError.
     """
     document = evaluation.to_json(sweep_document(result))

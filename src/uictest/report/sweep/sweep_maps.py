@@ -52,18 +52,22 @@ class CellAxis:
     def place_of(self, text: str) -> int | None:
         """Return the row or column of a value as written, None where there is none."""
         written = WrittenValue(text)
-        holding = (k for k, group in enumerate(self.groups) if any(_holds(value, written) for value in group))
+        holding = (
+            k
+            for k, group in enumerate(self.groups)
+            if any(_is_swept_value(value, written) for value in group)
+        )
         # A number between two intervals belongs to the upper one.
         return max(holding, default=None)
 
 
-def _holds(value: SweptValue, written: WrittenValue) -> bool:
+def _is_swept_value(value: SweptValue, written: WrittenValue) -> bool:
     if isinstance(value, WrittenValue):
         return value == written
     return written.number is not None and value.low <= written.number <= value.high
 
 
-def _axis(parameter: str, values: Sequence[SweptValue], groups: Fold) -> CellAxis:
+def _cell_axis(parameter: str, values: Sequence[SweptValue], groups: Fold) -> CellAxis:
     return CellAxis(parameter, [values[group.start : group.stop] for group in groups])
 
 
@@ -111,17 +115,19 @@ def folded(sweep_map: SweepMap, most_rows: int = MOST_SHOWN, most_columns: int |
     means = np.array(sweep_map.means, float)
     if len(rows) < len(sweep_map.rows.values) or len(columns) < len(sweep_map.columns.values):
         known = np.where(np.isfinite(means), sweep_map.known or cases, 0)
-        total, known = (_summed(cells, rows, columns) for cells in (np.nan_to_num(means) * known, known))
+        total, known = (
+            _summed_cells(cells, rows, columns) for cells in (np.nan_to_num(means) * known, known)
+        )
         means = total / np.where(known > 0, known, np.nan)
-        cases, met = (_summed(counts, rows, columns) for counts in (cases, met))
+        cases, met = (_summed_cells(counts, rows, columns) for counts in (cases, met))
     row_axis, column_axis = (
-        _axis(axis.parameter, axis.values, groups)
+        _cell_axis(axis.parameter, axis.values, groups)
         for axis, groups in ((sweep_map.rows, rows), (sweep_map.columns, columns))
     )
     return MapCells(row_axis, column_axis, cases, met, {}, {sweep_map.measure: means})
 
 
-def _summed(cells: NDArray[Any], rows: Fold, columns: Fold) -> NDArray[Any]:
+def _summed_cells(cells: NDArray[Any], rows: Fold, columns: Fold) -> NDArray[Any]:
     by_row = np.add.reduceat(cells, [group.start for group in rows], axis=0)
     return np.add.reduceat(by_row, [group.start for group in columns], axis=1)
 
@@ -215,7 +221,7 @@ class _Sums:
     def cells(self, result: SweepResult) -> MapCells:
         """Return the cells of the cases that were added."""
         rows, columns = (
-            _axis(key, [count.value for count in result.rates[key]], groups)
+            _cell_axis(key, [count.value for count in result.rates[key]], groups)
             for key, groups in zip(self.pair, self.folds, strict=True)
         )
         cases = np.sum([self._zeros(), *self._outcomes.values()], axis=0)
@@ -239,7 +245,7 @@ def map_lines(sweep_map: SweepMap, width: int | None) -> Iterator[str]:
     """
     for most_columns in range(min(MOST_SHOWN, len(sweep_map.columns.values)), 0, -1):
         cells = folded(sweep_map, MOST_SHOWN, most_columns)
-        table = list(_table(cells, sweep_map))
+        table = list(_text_map_lines(cells, sweep_map))
         if width is None or max(map(len, table)) <= width:
             break
     what = "share met (# none, 1-9 tenths, . all)" if sweep_map.shows_met else f"mean {sweep_map.measure}"
@@ -254,7 +260,7 @@ def map_lines(sweep_map: SweepMap, width: int | None) -> Iterator[str]:
     yield from table
 
 
-def _table(cells: MapCells, sweep_map: SweepMap) -> Iterator[str]:
+def _text_map_lines(cells: MapCells, sweep_map: SweepMap) -> Iterator[str]:
     sign = _share_sign if sweep_map.shows_met else "{:.4g}".format
     texts = [
         ["" if np.isnan(mean) else sign(mean) for mean in row]

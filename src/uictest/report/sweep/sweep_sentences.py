@@ -84,31 +84,31 @@ def circumstances_words(circumstances: Circumstances) -> str:
 
 
 def flip_words(flip: Flip) -> str:
-    """Return where a verdict flips, e.g. `met up to 0.10, not met from 0.11`."""
+    """Return the values between which a verdict flips, e.g. `met up to 0.10, not met from 0.11`."""
     before, after = ("met", "not met") if flip.met_at_low else ("not met", "met")
     return f"{before} up to {flip.low.text}, {after} from {flip.high.text}"
 
 
 @dataclass(frozen=True, slots=True)
 class NotableCase:
-    """A case as one line of a report.
+    """A case of a sweep as one line of a report.
 
     Args:
-        id: of the case.
-        met: whether it met its expectation.
-        word: of `CASE_WORDS`.
-        outcome: of the case.
-        why: empty where it was met.
+        id: id of the case.
+        met: whether the case met its expectation.
+        label: verdict for readers, one of `CASE_WORDS`.
+        outcome: outcome of the case.
+        reason: why the case is not met; empty where it is.
         distance: braking distance, m.
-        margin: the narrowest margin over its bound, %.
-        criterion: that has this margin.
+        margin: narrowest margin over its bound, %.
+        criterion: id of the criterion with this margin.
     """
 
     id: str
     met: bool
-    word: str
+    label: str
     outcome: str
-    why: str
+    reason: str
     distance: float | None = None
     margin: float | None = None
     criterion: str = ""
@@ -122,18 +122,18 @@ def notable_cases(result: SweepResult) -> list[NotableCase]:
         cases.append(
             NotableCase(
                 *(case.id, case.met, result_word(case), case.outcome),
-                why="" if case.met else "; ".join(explanation(case)),
+                reason="" if case.met else "; ".join(explanation(case)),
                 distance=(case.measures or {}).get("braking_distance_m"),
                 margin=None if margin is None else 100.0 * margin,
                 criterion=criterion,
             )
         )
-    known = {case.id for case in result.worst}
+    listed_ids = {case.id for case in result.worst}
     for missed in result.missed:
-        if missed.id not in known:
-            why = printable(": ".join(filter(None, (f"got {missed.outcome}", missed.reason))))
-            word = outcome_word(missed.outcome, met=False)
-            cases.append(NotableCase(missed.id, False, word, missed.outcome, why))
+        if missed.id not in listed_ids:
+            reason = printable(": ".join(filter(None, (f"got {missed.outcome}", missed.reason))))
+            label = outcome_word(missed.outcome, met=False)
+            cases.append(NotableCase(missed.id, False, label, missed.outcome, reason))
     return sorted(cases, key=lambda case: case.met)
 
 
@@ -143,8 +143,8 @@ def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False
     named = test_properties(result.test_case, result.requirements) if with_properties else {}
     testcases = []
     for count in counts:
-        status = _status(count)
-        lines = [] if status == "passed" else list(_explanation(result, count))
+        status = _testcase_status(count)
+        lines = [] if status == "passed" else list(_missed_lines(result, count))
         name = f"{result.name}[{parameter}={count.value.label}]"
         testcases.append(Testcase(class_name(file), name, status, lines, properties=named))
     program = evaluation.program_in(result.base)
@@ -154,7 +154,7 @@ def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False
     )
 
 
-def _status(count: OutcomeCount) -> TestcaseStatus:
+def _testcase_status(count: OutcomeCount) -> TestcaseStatus:
     if count.cases == 0 or count.outcomes["skipped"] == count.cases == count.met:
         return "skipped"
     if count.outcomes["error"]:
@@ -162,7 +162,7 @@ def _status(count: OutcomeCount) -> TestcaseStatus:
     return "failure" if count.met < count.cases else "passed"
 
 
-def _explanation(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
+def _missed_lines(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
     yield f"{count.cases - count.met} of {count.cases} cases did not meet their expectation"
     yield ", ".join(f"{name}: {number}" for name, number in count.outcomes.items() if number)
     if result.missed and count.met < count.cases:
@@ -174,24 +174,24 @@ def sweep_annotations(result: SweepResult, file: str) -> Iterator[str]:
     """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
     missed = [case for case in notable_cases(result) if not case.met]
     for case in missed[:MOST_ANNOTATED]:
-        yield annotation(file, f"{case.word} {case.id}", case.why)
+        yield annotation(file, f"{case.label} {case.id}", case.reason)
     yield annotation(file, f"uictest sweep {result.name}", sweep_tally(result), level="notice")
 
 
 def domain_notes(domain: SweepDomain | None, cases: int) -> Iterator[str]:
-    """Yield how many of `cases` lie outside of what was validated, and in what; else nothing."""
+    """Yield the number of `cases` outside of what was validated, with the conditions; else nothing."""
     if domain is None:
         return
     among = f"{domain.outside} of {counted(cases, 'case')} outside of what {domain.validation} validated"
     first = domain.conditions[:_MOST_CONDITIONS]
-    shown = [f"{deviation_text(condition.deviation)} in {condition.cases}" for condition in first]
-    more = len(domain.conditions) - len(shown)
-    rest = f"; {counted(more, 'more condition')} in results.json" if more else ""
-    yield f"{among}: {'; '.join(shown)}{rest}" if shown else among
+    listed = [f"{deviation_text(condition.deviation)} in {condition.cases}" for condition in first]
+    not_listed = len(domain.conditions) - len(listed)
+    remainder = f"; {counted(not_listed, 'more condition')} in results.json" if not_listed else ""
+    yield f"{among}: {'; '.join(listed)}{remainder}" if listed else among
 
 
 def survey_notes(survey: SurveyStep | None, cases: int) -> Iterator[str]:
-    """Yield how many cases were repeated in regular steps, and the bias of each measure."""
+    """Yield the number of cases that were repeated in regular steps, and the bias of each measure."""
     if survey is None:
         return
     begin = f"survey in steps of {survey.time_step}, which"
@@ -204,13 +204,13 @@ def survey_notes(survey: SurveyStep | None, cases: int) -> Iterator[str]:
         yield f"bias of the survey step: not known of {', '.join(survey.unknown)}"
     noted = [bias for bias in survey.biases if bias.bias >= _LEAST_BIAS]
     for bias in noted:
-        on_average = f"at most {_percent(bias.bias)} on average ({bias.case})"
-        of_stops = f"{_percent(bias.of_single_stops)} in 95 % of single stops"
+        on_average = f"at most {_percent_text(bias.bias)} on average ({bias.case})"
+        of_stops = f"{_percent_text(bias.of_single_stops)} in 95 % of single stops"
         yield f"bias of the survey step: {bias.measure} {on_average}, {of_stops}"
     if others := len(survey.biases) - len(noted):
-        below = f"below {_percent(_LEAST_BIAS)} in {counted(others, 'other measure')} judged or mapped"
+        below = f"below {_percent_text(_LEAST_BIAS)} in {counted(others, 'other measure')} judged or mapped"
         yield f"bias of the survey step: {below}"
 
 
-def _percent(share: float) -> str:
+def _percent_text(share: float) -> str:
     return percent(share, 2) if share < 1.0 else f"{100.0 * share:.0f} %"

@@ -71,7 +71,7 @@ class _Rate(NamedTuple):
 
 
 def rates_table(result: SweepResult) -> Table:
-    """Return how many cases are met at each value of each parameter."""
+    """Return the table of cases met at each value of each parameter."""
     rows = [
         _Rate(key, count, number == 0)
         for key, counts in result.rates.items()
@@ -176,7 +176,7 @@ class _FrontierRow(NamedTuple):
 
 
 def frontier_table(frontier: Frontier) -> Table:
-    """Return where verdicts flip: a row for each flip, or one with a note where there is none."""
+    """Return the table of flipping verdicts: a row for each flip, or one with a note where there is none."""
     rows = [
         _FrontierRow(scan.circumstances, flip, len(scan.flips), scan.note)
         for scan in frontier.scans
@@ -195,7 +195,7 @@ def frontier_table(frontier: Frontier) -> Table:
 
 
 def _frontier_sections(frontier: Frontier) -> Iterator[Table | Lines]:
-    """Yield where verdicts flip: few rows all, of many the first, those with flips before the others."""
+    """Yield the rows of flipping verdicts: few rows all, of many the first, those with flips in front."""
     table = frontier_table(frontier)
     rows = list(table.rows)
     if len(rows) > _MOST_ROWS:
@@ -214,13 +214,13 @@ _MEASURES: Final[tuple[Column[MeasureRange], ...]] = (
     Column(heading="maximum", value=lambda measure: measure.maximum, digits="significant"),
 )
 _NOTABLE: Final[tuple[Column[NotableCase], ...]] = (
-    Column(heading="verdict", text=lambda case: case.word, tone=lambda case: tone(case.word)),
+    Column(heading="verdict", text=lambda case: case.label, tone=lambda case: tone(case.label)),
     Column(heading="case", text=lambda case: case.id, literal=True),
     Column(heading="outcome", text=lambda case: case.outcome),
     Column(heading="distance", unit="m", value=lambda case: case.distance, digits=1),
     Column(heading="margin", unit="%", value=lambda case: case.margin, digits=1),
     Column(heading="criterion", text=lambda case: case.criterion),
-    Column(heading="why", text=lambda case: case.why, wraps=True),
+    Column(heading="why", text=lambda case: case.reason, wraps=True),
 )
 
 
@@ -267,7 +267,7 @@ _SWEPT: Final[tuple[Column[tuple[str, Sequence[OutcomeCount]]], ...]] = (
 
 
 def _firmness_sections(nominal: Sequence[evaluation.CaseResult]) -> Iterator[Table | Lines]:
-    """Yield how firm the verdicts of the nominal cases are, and the numbers by what they do to them."""
+    """Yield the tables on how firm the nominal verdicts are, and on the effect of each number on them."""
     sentences = [f"{printable(case.id)}: {line}" for case in nominal for line in firmness_sentences(case)]
     yield Lines(sentences, "Firm or not firm: the nominal case")
     for case in nominal:
@@ -276,7 +276,7 @@ def _firmness_sections(nominal: Sequence[evaluation.CaseResult]) -> Iterator[Tab
 
 
 def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
-    """Yield what depends on what: rates, sensitivities, the frontier, and on numbers nobody knows."""
+    """Yield the tables of dependence: rates, sensitivities, the frontier, and firmness."""
     yield from _short_rates(result)
     yield sensitivity_table(result)
     if result.frontier is not None:

@@ -37,7 +37,7 @@ class WrittenValue:
 
     @property
     def unit(self) -> str:
-        """The unit behind the number; empty where there is none."""
+        """The unit after the number; empty where there is none."""
         return self.text.partition(" ")[2]
 
 

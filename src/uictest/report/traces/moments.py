@@ -77,7 +77,7 @@ def moments_of(
     """Return the moments of each criterion whose measure has any, by the id of the criterion.
 
     Args:
-        verdicts: of the stop; their definitions say what counts.
+        verdicts: verdicts of the stop; their definitions say what counts.
         record: every sample of the stop, SI.
         wheelsets: what the result of the stop reports of each, for what no recording tells.
 
@@ -91,8 +91,10 @@ def moments_of(
     ]
     if "speed" not in record.channels or not judged:
         return {}
-    replay = _replay([verdict for verdict, _ in judged], record)
-    cells = list(dict.fromkeys(cell for verdict, measure in judged for cell in _cells(verdict, measure)))
+    replay = _replay_of([verdict for verdict, _ in judged], record)
+    cells = list(
+        dict.fromkeys(cell for verdict, measure in judged for cell in _deciding_cells(verdict, measure))
+    )
     first = replay.numbers_at(cells)
     noted = rig.noted_numbers(replay, cells)  # all samples pass
     time = replay.samples.train[:, 0]
@@ -100,24 +102,24 @@ def moments_of(
     if "sliding_time" in record.metadata:  # more exact than the samples
         replay.train.sliding_time = float(record.metadata["sliding_time"])
     return {
-        verdict.id: _moments(verdict, measure, replay, changes, record, wheelsets)
+        verdict.id: _moments_of_measure(verdict, measure, replay, changes, record, wheelsets)
         for verdict, measure in judged
     }
 
 
-def _replay(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay:
+def _replay_of(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay:
     """Return the records of the stop at its first sample; definitions that no verdict has are unknown."""
-    stated = {name: value for verdict in verdicts for name, value in _definition(verdict).items()}
+    stated = {name: value for verdict in verdicts for name, value in _numeric_definition(verdict).items()}
     unknown = dict.fromkeys(fields_of(MeasureDefinition), math.nan)
     demanded = record.channels.get("demanded_pressure", np.array([math.nan]))
     return Replay(
-        samples_of(record.channels, faults=_faults(record)),
+        samples_of(record.channels, faults=_recorded_faults(record)),
         SimpleNamespace(**(unknown | stated)),
         float(np.fmax.reduce(demanded)),  # a gap says nothing; without any value it is not known
     )
 
 
-def _faults(record: Recording) -> Faults | None:
+def _recorded_faults(record: Recording) -> Faults | None:
     """Return the faults of the stop; each label ends with the number of its wheelset, if it has one."""
     labels = record.metadata.get("faults", "")
     if not labels or "active_faults" not in record.channels:
@@ -140,17 +142,17 @@ def _faults(record: Recording) -> Faults | None:
     )
 
 
-def _cells(verdict: evaluation.Verdict, measure: Measure) -> list[Cell]:
+def _deciding_cells(verdict: evaluation.Verdict, measure: Measure) -> list[Cell]:
     """Return the numbers whose changes decide a criterion, of the wheelsets or of the train."""
     decided = measure.decided
     if decided is None or not decided.field:
         return []
-    index = None if decided.index is None else decided.index(_definition(verdict))
+    index = None if decided.index is None else decided.index(_numeric_definition(verdict))
     numbers = WHEELSETS if decided.field in fields_of(WheelsetMeasures) else (TRAIN,)
     return [(decided.field, n, index) for n in numbers]
 
 
-def _definition(verdict: evaluation.Verdict) -> dict[str, float]:
+def _numeric_definition(verdict: evaluation.Verdict) -> dict[str, float]:
     return {applied.name: applied.value for applied in verdict.definitions}
 
 
@@ -172,7 +174,7 @@ def _changes_of(first: float, noted: NDArray[np.float64], time: NDArray[np.float
     return _Changes(float(noted[changes[-1]]), float(time[changes[-1] + 1]), grown)
 
 
-def _moments(
+def _moments_of_measure(
     verdict: evaluation.Verdict,
     measure: Measure,
     replay: Replay,
@@ -180,7 +182,7 @@ def _moments(
     record: Recording,
     wheelsets: Sequence[Mapping[str, float]],
 ) -> Moments:
-    decided, definition, time = measure.decided, _definition(verdict), record["time"]
+    decided, definition, time = measure.decided, _numeric_definition(verdict), record["time"]
     assert decided is not None
     span = None if decided.span is None else decided.span(replay.train, definition)
     if decided.down_to:
@@ -190,7 +192,7 @@ def _moments(
         span = None
     intervals: dict[int, Sequence[Interval]] = {}
     extremes = {}
-    for cell in _cells(verdict, measure):
+    for cell in _deciding_cells(verdict, measure):
         _, n, _ = cell
         change = changes[cell]
         if decided.among is not None and not decided.among(replay.wheelsets[n - 1]):
@@ -219,7 +221,7 @@ def _wheelset_of(
     wheelsets: Sequence[Mapping[str, float]],
 ) -> int | None:
     """Return the wheelset that has the value of a criterion, in its unit; None where none has any."""
-    read = measure.read(replay.train, replay.wheelsets, _definition(verdict)).values
+    read = measure.read(replay.train, replay.wheelsets, _numeric_definition(verdict)).values
     values = [in_unit(number, verdict.unit) for number in read]
     if measure.column is not None and not any(map(math.isfinite, values)):
         scale = SIZES[measure.column.unit] / SIZES[verdict.unit]
@@ -229,6 +231,6 @@ def _wheelset_of(
 
 
 def duration(interval: Interval) -> float:
-    """Return how long an interval lasts, s."""
+    """Return the duration of an interval, s."""
     first, last = interval
     return last - first

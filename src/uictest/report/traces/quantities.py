@@ -276,7 +276,7 @@ def shown_unit(channel: str, unit: str) -> str:
 
 
 def channel_title(channel: str) -> str:
-    """Return what a channel is called, e.g. `Tank pressure of wheelset 1`; a name that is no phrase stays."""
+    """Return the title of a channel, e.g. `Tank pressure of wheelset 1`; names that are not phrases stay."""
     match = _WHEELSET.fullmatch(channel)
     name, wheelset = match.groups() if match else (channel, "")
     if not re.fullmatch(r"[a-z][a-z_]*", name):

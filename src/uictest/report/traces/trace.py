@@ -27,7 +27,7 @@ BINS: Final = 800
 DECELERATION_WINDOW: Final = 0.5
 """s: over how long the deceleration that is drawn is averaged; chosen to show what a passenger feels."""
 SLIDE_SPEED: Final = 1.0
-"""m/s: at and below it a slide is no number; the rig records 0 there."""
+"""m/s: at and below it a slide is not a number; the rig records 0 there."""
 _UNKNOWN_STATE: Final = -1
 """The state where none was recorded."""
 
@@ -59,10 +59,10 @@ class VentCycle(NamedTuple):
 
     Args:
         wheelset: its number.
-        start: of the vent, s since the brake command.
-        duration: of the vent, s.
+        start: start of the vent, s since the brake command.
+        duration: duration of the vent, s.
         slide: at its start, %.
-        drop: of the pressure from the start of the vent to its lowest value before the next one, bar.
+        drop: drop of the pressure from the start of the vent to its lowest value before the next one, bar.
         recovery: from the start of the vent until the slide, after its peak, is no larger than then, s; NaN
             where the next vent comes before.
 
@@ -122,11 +122,11 @@ def trace_of(
     verdicts: Iterable[evaluation.Verdict] = (),
     wheelsets: Sequence[Mapping[str, float]] = (),
 ) -> PlotTrace:
-    """Return what is drawn of a stop: every sample, or of many the extremes; every change of a state.
+    """Return the trace of a stop: every sample, or of many the extremes; every change of a state.
 
     Args:
         record: samples of the stop, SI.
-        verdicts: of the stop; the trace holds when each of them was decided.
+        verdicts: verdicts of the stop; the trace holds when each of them was decided.
         wheelsets: what the result reports of each.
 
     """
@@ -143,7 +143,7 @@ def trace_of(
         float(time[-1]),
         recording.mean_interval(time),
         {name: Curve(drawn, samples[rows]) for name, samples in lines.items()},
-        {name: _states(time, series[name]) for name in states},
+        {name: _state_spans(time, series[name]) for name in states},
         tuple(name for name in series if name not in record.channels),
         moments_of(verdicts, record, wheelsets),
         fault_spans(record),
@@ -152,19 +152,19 @@ def trace_of(
 
 
 def trace_of_stop(record: recording.Recording, result: evaluation.CaseResult) -> PlotTrace:
-    """Return what is drawn of a judged case, whose drawn stop the record holds."""
+    """Return the trace of a judged case, whose drawn stop the record holds."""
     stop = result.drawn_stop
     return trace_of(record, stop.criteria, stop.wheelsets)
 
 
-def _states(time: Series, samples: Series) -> States:
+def _state_spans(time: Series, samples: Series) -> States:
     state = np.where(np.isfinite(samples), np.rint(samples), _UNKNOWN_STATE).astype(np.int64)
     changes = np.flatnonzero(np.diff(state, prepend=state[0] - 1))
     return States(time[changes], state[changes])
 
 
 def series_in_units(record: recording.Recording) -> dict[str, Series]:
-    """Return what can be drawn over time, derived series too, in the units of `PLOT_QUANTITIES`.
+    """Return the series that can be drawn over time, derived ones too, in the units of `PLOT_QUANTITIES`.
 
     Slides at and below `SLIDE_SPEED` are NaN; the state of the rail is left out where it does not change.
     """
@@ -275,7 +275,7 @@ def vent_cycles(time: Series, series: Mapping[str, Series]) -> tuple[VentCycle, 
     """Return the vents of all wheelsets in the order of their starts.
 
     Args:
-        time: of the samples, s.
+        time: time of the samples, s.
         series: samples by channel: states of valves, slides in %, pressures in bar.
 
     """
@@ -298,11 +298,11 @@ def _vents_of_wheelset(time: Series, series: Mapping[str, Series], n: int) -> It
             float(time[min(end, len(time) - 1)] - time[start]),
             float(slides[start]),
             float(pressure[start] - np.min(pressure[start:following])),
-            _recovery(time[start:following], slides[start:following]),
+            _recovery_time(time[start:following], slides[start:following]),
         )
 
 
-def _recovery(time: Series, slides: Series) -> float:
+def _recovery_time(time: Series, slides: Series) -> float:
     """Return the time from the first sample until the slide, after its peak, is back; NaN if it is not."""
     if math.isnan(slides[0]):
         return math.nan
@@ -314,7 +314,7 @@ def _recovery(time: Series, slides: Series) -> float:
 BAND_STOPS: Final = 20
 """Stops of a repeated case that its band holds, the first ones: those of a large run are simulated again."""
 BAND_QUANTITIES: Final = ("speed", "wheel_speed", "slide", "cylinder_pressure")
-_PART: Final = 0.05
+_BIN_WIDTH: Final = 0.05
 """s: of every part of a stop the extremes are kept, so that a band takes a fifth of the samples; chosen."""
 _ROUNDING: Final = 1e-6
 """Of a part: times that lie no further apart are one."""
@@ -340,20 +340,20 @@ class StopExtremes(NamedTuple):
 def stop_extremes(record: recording.Recording) -> StopExtremes:
     """Return the extremes of what a band shows of a stop."""
     time, series = record[recording.TIME], series_in_units(record)
-    interval = float(np.median(np.diff(time))) if len(time) > 1 else _PART
-    part = interval * max(round(_PART / interval), 1)
+    interval = float(np.median(np.diff(time))) if len(time) > 1 else _BIN_WIDTH
+    bin_width = interval * max(round(_BIN_WIDTH / interval), 1)
     # A sample at the border of two parts belongs to the later one, however times are rounded.
-    parts = np.floor((time - time[0]) / part + _ROUNDING).astype(np.intp)
-    starts = np.flatnonzero(np.diff(parts, prepend=-1))
+    bin_index = np.floor((time - time[0]) / bin_width + _ROUNDING).astype(np.intp)
+    starts = np.flatnonzero(np.diff(bin_index, prepend=-1))
 
-    def of_parts(extreme: np.ufunc) -> dict[str, Series]:
+    def bin_extremes(extreme: np.ufunc) -> dict[str, Series]:
         values = {}
         for name in (name for key in BAND_QUANTITIES for name in channel_names(key) if name in series):
-            values[name] = np.full(parts[-1] + 1, np.nan)
-            values[name][parts[starts]] = extreme.reduceat(series[name], starts)
+            values[name] = np.full(bin_index[-1] + 1, np.nan)
+            values[name][bin_index[starts]] = extreme.reduceat(series[name], starts)
         return values
 
-    return StopExtremes(float(time[0]), part, of_parts(np.fmin), of_parts(np.fmax))
+    return StopExtremes(float(time[0]), bin_width, bin_extremes(np.fmin), bin_extremes(np.fmax))
 
 
 def with_band(trace: PlotTrace, stops: Sequence[StopExtremes]) -> PlotTrace:
@@ -364,18 +364,18 @@ def with_band(trace: PlotTrace, stops: Sequence[StopExtremes]) -> PlotTrace:
     if len(stops) < 2:
         return trace
     first = stops[0]
-    parts = max(len(values) for stop in stops for values in stop.lowest.values())
-    # The last border is the first one at or behind the end of the trace.
-    drawn = min(int(np.ceil((trace.end - first.start) / first.part - _ROUNDING)), parts) + 1
+    bins = max(len(values) for stop in stops for values in stop.lowest.values())
+    # The last border is the first one at or after the end of the trace.
+    drawn = min(int(np.ceil((trace.end - first.start) / first.part - _ROUNDING)), bins) + 1
     x = np.minimum(first.start + first.part * np.arange(drawn), trace.end)
 
     def edge(values: Sequence[Series], extreme: np.ufunc) -> Curve:
-        of_parts = np.full((len(stops), parts + 2), np.nan)
-        for row, of_stop in zip(of_parts, values, strict=True):
-            row[1 : len(of_stop) + 1] = of_stop
-        of_all = extreme.reduce(of_parts)
+        by_stop = np.full((len(stops), bins + 2), np.nan)
+        for row, bin_values in zip(by_stop, values, strict=True):
+            row[1 : len(bin_values) + 1] = bin_values
+        over_stops = extreme.reduce(by_stop)
         # At a border the extreme of both parts: no sample lies beyond the line from one border to the next.
-        return Curve(x, extreme(of_all[:-1], of_all[1:])[:drawn])
+        return Curve(x, extreme(over_stops[:-1], over_stops[1:])[:drawn])
 
     band = {
         name: (

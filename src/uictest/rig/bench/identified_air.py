@@ -273,7 +273,20 @@ def follow_record_of_air(
     commands: Any,
     computed: Any,
 ) -> None:
-    """Follow a record sample by sample and fill ``computed`` with gauge pressures, Pa."""
+    """Simulate the air of a caliper's module, driven by a record, sample by sample.
+
+    A sample is one base step; valves are commanded at the first step of each controller cycle.
+
+    Args:
+        car: zeroed car record; its ``substep`` counts the steps within a cycle.
+        wheelset: zeroed wheelset record.
+        p: parameter record.
+        wheelset_parameters: parameters of the wheelset.
+        tank: recorded tank pressures, gauge Pa; they are the readings of the pressure sensor.
+        line: recorded brake line pressures, gauge Pa; the tank fills from them.
+        commands: recorded valve commands.
+        computed: filled with the modelled cylinder pressures, gauge Pa.
+    """
     copy_wheelset_parameters(wheelset, wheelset_parameters)
     start_module(wheelset, 0.0, p)
     wheelset.pressure_reading = tank[0]

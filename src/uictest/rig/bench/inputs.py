@@ -1,4 +1,4 @@
-"""What a bench test applies over time: demanded pressures and valve commands, as its recipe has them."""
+"""Inputs of a bench test over time: demanded pressures and valve commands, as its recipe has them."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace

@@ -80,7 +80,7 @@ def bench_rig(case: Case) -> BenchRig:
 
 
 _LOADCELL = 8
-"""Noise channel of the first loadcell, behind those that a stop uses."""
+"""Noise channel of the first loadcell, after those that a stop uses."""
 
 
 def run_bench_test(rig: BenchRig, demanded_pressures: Any, valve_commands: Any, trace: Any) -> None:

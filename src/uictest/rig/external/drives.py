@@ -26,7 +26,7 @@ from uictest.controllers import (
     OnlyOneError,
     open_controller,
 )
-from uictest.rig.external.in_process import raise_failure
+from uictest.rig.external.in_process import raise_if_failed
 from uictest.rig.external.process_state import ControllerCalls
 from uictest.rig.model.controller import call_step
 
@@ -42,12 +42,12 @@ _GUARD_AT: Final = OUTPUTS_AT + OUTPUTS.itemsize
 """Offset of the guard in :data:`~uictest.controllers.EXCHANGE`."""
 
 Beginning = Literal["create", "reset", "beside"]
-"""How a drive begins: with a new controller, with the one of the drive before, or with a new one beside
-another that is shown the same sensors, last first, each cycle before the controller is shown its own."""
+"""How a drive begins: with a new controller, with that of the previous drive after a reset, or with a new one
+together with another, called first in each cycle, which is given the inputs from last to first."""
 
 
 class DriveRequest(NamedTuple):
-    """What a controller is driven through.
+    """Inputs of one or several drives of a controller.
 
     Attributes:
         program: what is loaded.
@@ -65,7 +65,7 @@ class DriveRequest(NamedTuple):
 
 
 class Driven(NamedTuple):
-    """What a controller has answered.
+    """Answers of a controller in one drive.
 
     Attributes:
         outputs: one :data:`~uictest.controllers.OUTPUTS` for each cycle.
@@ -102,7 +102,7 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
         for beginning in request.beginnings:
             if beginning != "reset":
                 controllers.close()
-                instance = controllers.enter_context(_opened(request, calls))
+                instance = controllers.enter_context(_opened_controller(request, calls))
             if instance is None:
                 raise ValueError("the first drive begins with a new controller")
             with calls.of("reset", OPENING):
@@ -110,7 +110,11 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
             if beginning == "beside":
                 drives.append(_drive_beside(instance, request, calls))
             else:
-                drives.append(_driven(_answers(instance, request.inputs, request.config.cycle_time, calls)))
+                drives.append(
+                    _collected_answers(
+                        _answers_by_cycle(instance, request.inputs, request.config.cycle_time, calls)
+                    )
+                )
     if instance is None:
         return Drives("", ())
     said = instance.declares, instance.contract
@@ -118,7 +122,7 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
 
 
 @contextmanager
-def _opened(request: DriveRequest, calls: ControllerCalls) -> Iterator[ControllerInstance]:
+def _opened_controller(request: DriveRequest, calls: ControllerCalls) -> Iterator[ControllerInstance]:
     with calls.of("loading or create", OPENING):
         instance = open_controller(request.program, request.config)
     try:
@@ -130,7 +134,7 @@ def _opened(request: DriveRequest, calls: ControllerCalls) -> Iterator[Controlle
 
 def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any) -> Driven:
     """Drive a controller that has been reset. Raises ControllerError where it fails."""
-    return _driven(_answers(instance, inputs, cycle_time, ControllerCalls(exchange)))
+    return _collected_answers(_answers_by_cycle(instance, inputs, cycle_time, ControllerCalls(exchange)))
 
 
 def _drive_beside(instance: ControllerInstance, request: DriveRequest, calls: ControllerCalls) -> Driven:
@@ -140,20 +144,20 @@ def _drive_beside(instance: ControllerInstance, request: DriveRequest, calls: Co
         reversed_inputs[name] = inputs[name]
     with ExitStack() as others:
         try:
-            other = others.enter_context(_opened(request, calls))
+            other = others.enter_context(_opened_controller(request, calls))
         except OnlyOneError:
-            return _driven(())
+            return _collected_answers(())
         with calls.of("reset", OPENING):
             other.reset()
         both = zip(
-            _answers(other, reversed_inputs, cycle_time, calls),
-            _answers(instance, inputs, cycle_time, calls),
+            _answers_by_cycle(other, reversed_inputs, cycle_time, calls),
+            _answers_by_cycle(instance, inputs, cycle_time, calls),
             strict=True,
         )
-        return _driven(own for _, own in both)
+        return _collected_answers(own for _, own in both)
 
 
-def _driven(answers: Iterable[tuple[bytes, float]]) -> Driven:
+def _collected_answers(answers: Iterable[tuple[bytes, float]]) -> Driven:
     outputs, seconds = bytearray(), []
     for answer, duration in answers:
         outputs += answer
@@ -161,10 +165,10 @@ def _driven(answers: Iterable[tuple[bytes, float]]) -> Driven:
     return Driven(np.frombuffer(outputs, OUTPUTS), np.array(seconds, float))
 
 
-def _answers(
+def _answers_by_cycle(
     instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, calls: ControllerCalls
 ) -> Iterator[tuple[bytes, float]]:
-    """Yield what a controller answers in each cycle, as bytes, and how long that took.
+    """Yield a controller's answer in each cycle, as bytes, and the time that it took, s.
 
     Between two cycles the exchange may serve another controller. Raises ControllerError.
     """
@@ -178,7 +182,7 @@ def _answers(
     brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
     effort = inputs["dynamic_brake"][:1].copy()
     untouched = UNTOUCHED if instance.contract == 1 else 0.0
-    blank, untouched_reduction = _blank(untouched), [untouched] * len(reduction)
+    blank, untouched_reduction = _blank_outputs(untouched), [untouched] * len(reduction)
     newest = [0.0] * len(pressure)
     for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
         memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
@@ -206,7 +210,7 @@ def _answers(
             fields.failure = WROTE_BEYOND
         elif status != 0:
             fields.failure = STEP_FAILED
-        raise_failure(exchange, instance)
+        raise_if_failed(exchange, instance)
         answer = bytes(memory[OUTPUTS_AT:_GUARD_AT])
         full, magnets = max(demanded), zip(fields.hold, fields.vent, strict=True)
         newest = [
@@ -215,7 +219,7 @@ def _answers(
         yield answer, seconds
 
 
-def _blank(untouched: float) -> bytes:
+def _blank_outputs(untouched: float) -> bytes:
     """Return outputs as a controller finds them that asks for nothing."""
     outputs = np.zeros(1, OUTPUTS)
     outputs["reference_speed"], outputs["dynamic_reduction"] = np.nan, untouched

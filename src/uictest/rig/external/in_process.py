@@ -101,7 +101,7 @@ def opened(
         parameters["controller_contract"] = instance.contract
         parameters["controller_exchange"] = exchange.__array_interface__["data"][0]
         yield instance
-        raise_failure(exchange, instance)
+        raise_if_failed(exchange, instance)
     finally:
         with alone, calls.of("destroy", CLOSING):
             instance.close()
@@ -118,7 +118,7 @@ def check_requests(contract: int, parameters: Any) -> None:
         )
 
 
-def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
+def raise_if_failed(exchange: Any, instance: ControllerInstance) -> None:
     """Raise ControllerError if the controller failed, with the reason and the cycle.
 
     Raises:
@@ -208,7 +208,7 @@ def run_train_in_process(
         }
         for car in sorted(programs, key=lambda car: not at_fault[car]):
             with of_car(car, inputs):
-                raise_failure(exchange_of_car[car], controllers[car])
+                raise_if_failed(exchange_of_car[car], controllers[car])
     cars = list(stop.cars)
     for car, controller in controllers.items():
         cars[car] = replace(
@@ -238,7 +238,7 @@ def of_car(car: int, inputs: TrainInputs) -> Iterator[None]:
 
 
 class BlockRun(NamedTuple):
-    """What a block of stops leaves.
+    """Results of a block of stops.
 
     Attributes:
         measures: records of :data:`uictest.core.measures.STOP_MEASURES`, shape (cases,).
@@ -253,7 +253,7 @@ class BlockRun(NamedTuple):
 
 
 class BlockInputs(NamedTuple):
-    """What a block of stops is run with.
+    """Inputs of a block of stops.
 
     Attributes:
         programs: the controller of each case that comes from outside, None where it is built in.
@@ -307,7 +307,7 @@ def run_block(inputs: BlockInputs, exchanges: NDArray[Any] | None = None) -> Blo
                 continue
             with ExitStack() as opening:
                 # The outer context gets the failure of a stop, which is known when its controller is closed.
-                opening.enter_context(_noted(run.failures, case))
+                opening.enter_context(_noting_failure(run.failures, case))
                 controller = opening.enter_context(opened(program, config, records[0], exchanges[case]))
                 if controller.runs_beside_others:
                     controllers.enter_context(opening.pop_all())
@@ -326,13 +326,13 @@ def run_block(inputs: BlockInputs, exchanges: NDArray[Any] | None = None) -> Blo
 
 
 def empty_run(count: int) -> BlockRun:
-    """Return what so many stops leave, not yet filled."""
+    """Return blank results of a number of stops, to be filled."""
     return BlockRun(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES), [""] * count)
 
 
 @contextmanager
-def _noted(failures: list[str], case: int) -> Iterator[None]:
-    """Keep why the controller of a case failed, instead of raising it."""
+def _noting_failure(failures: list[str], case: int) -> Iterator[None]:
+    """Store the error of the controller of a case instead of raising it."""
     try:
         yield
     except ControllerError as error:

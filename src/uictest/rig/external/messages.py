@@ -1,4 +1,4 @@
-"""What a child process is told and answers, as messages: stops, drives, controllers."""
+"""Requests to a child process and its answers, as messages: stops, drives, controllers."""
 
 import json
 import struct
@@ -26,14 +26,14 @@ _LARGEST: Final = 1 << 32
 
 
 class Message(NamedTuple):
-    """What is sent at once."""
+    """A message, sent in one piece."""
 
     head: dict[str, Any]
     blocks: tuple[bytes, ...] = ()
 
 
 class BrokenMessageError(Exception):
-    """What the other side sent is no message."""
+    """The received bytes are not a message."""
 
 
 class StreamEndedError(Exception):
@@ -51,13 +51,13 @@ def write_message(stream: BinaryIO, message: Message) -> None:
 
 def read_message(stream: BinaryIO) -> Message:
     """Wait for a message and return it. Raises BrokenMessageError, StreamEndedError."""
-    (count,) = _COUNT.unpack(_exactly(stream, _COUNT.size))
+    (count,) = _COUNT.unpack(_read_exactly(stream, _COUNT.size))
     if not 0 < count <= _MOST_BLOCKS:
         raise BrokenMessageError(f"{count} blocks")
-    lengths = [_LENGTH.unpack(_exactly(stream, _LENGTH.size))[0] for _ in range(count)]
+    lengths = [_LENGTH.unpack(_read_exactly(stream, _LENGTH.size))[0] for _ in range(count)]
     if sum(lengths) > _LARGEST:
         raise BrokenMessageError(f"{sum(lengths)} bytes")
-    head, *blocks = [_exactly(stream, length) for length in lengths]
+    head, *blocks = [_read_exactly(stream, length) for length in lengths]
     try:
         content = json.loads(head)
     except (ValueError, RecursionError) as error:
@@ -67,7 +67,7 @@ def read_message(stream: BinaryIO) -> Message:
     return Message(content, tuple(blocks))
 
 
-def _exactly(stream: BinaryIO, size: int) -> bytes:
+def _read_exactly(stream: BinaryIO, size: int) -> bytes:
     content = stream.read(size)
     if len(content) != size:
         raise StreamEndedError
@@ -97,7 +97,7 @@ def bytes_of(records: Sequence[Any]) -> tuple[bytes, ...]:
 
 
 def drive_message(request: DriveRequest) -> Message:
-    """Return what a controller is driven through as a message."""
+    """Return a drive request as a message."""
     head = {
         "request": "drive",
         "controllers": written_controllers([request.program], [request.config]),
@@ -107,21 +107,21 @@ def drive_message(request: DriveRequest) -> Message:
 
 
 def drive_request_of(message: Message) -> DriveRequest:
-    """Return what a controller is driven through from its message."""
+    """Return the drive request of a message."""
     program, config = read_controller(message.head["controllers"][0])
     inputs = np.frombuffer(message.blocks[0], INPUTS)
     return DriveRequest(program, config, inputs, message.head["beginnings"])
 
 
 def drives_message(drives: Drives) -> Message:
-    """Return what a controller has answered as a message."""
+    """Return a controller's answers as a message."""
     records = [each for driven in drives.drives for each in driven]
     head = {name: getattr(drives, name) for name in ("version", "declares", "contract", "traces")}
     return Message(head, bytes_of(records))
 
 
 def drives_of(message: Message) -> Drives:
-    """Return what a controller has answered from its message."""
+    """Return a controller's answers from a message."""
     pairs = zip(message.blocks[::2], message.blocks[1::2], strict=True)
     drives = (Driven(np.frombuffer(outputs, OUTPUTS), np.frombuffer(seconds)) for outputs, seconds in pairs)
     head = message.head
@@ -132,7 +132,7 @@ def drives_of(message: Message) -> Drives:
 _STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)
 
 
-def _finished(records: Sequence[Any], controller_version: str, contract: int) -> FinishedStop:
+def _finished_stops(records: Sequence[Any], controller_version: str, contract: int) -> FinishedStop:
     measures, wheelset_measures, car, wheelsets, train, samples = records
     return FinishedStop(
         measures[0],
@@ -148,7 +148,7 @@ def _finished(records: Sequence[Any], controller_version: str, contract: int) ->
 _TRAIN: Final = (PARAMETERS, WHEELSET_PARAMETERS, np.float64, COUPLER, np.float64)
 
 
-def _arrays(blocks: Sequence[bytes | bytearray], layouts: Sequence[Any]) -> list[NDArray[Any]]:
+def _arrays_of_blocks(blocks: Sequence[bytes | bytearray], layouts: Sequence[Any]) -> list[NDArray[Any]]:
     pairs = zip(blocks, layouts, strict=True)
     return [np.frombuffer(block, layout) if block else np.empty(0, layout) for block, layout in pairs]
 
@@ -167,7 +167,7 @@ def train_message(inputs: TrainInputs, steps_per_sample: int) -> Message:
 def train_of(message: Message) -> tuple[TrainInputs, int]:
     """Return the stop of a train in a message, and the base steps from one sample to the next."""
     blocks = [bytearray(block) for block in message.blocks]  # to be written to
-    parameters, of_wheelsets, distances, couplers, rail = _arrays(blocks, _TRAIN)
+    parameters, of_wheelsets, distances, couplers, rail = _arrays_of_blocks(blocks, _TRAIN)
     controllers = map(read_controller, message.head["controllers"])
     controller_of_car = dict(zip(message.head["places"], controllers, strict=True))
     programs, configs = zip(
@@ -178,7 +178,7 @@ def train_of(message: Message) -> tuple[TrainInputs, int]:
 
 
 def train_stop_message(stop: TrainStop) -> Message:
-    """Return what a stop of a train leaves as a message."""
+    """Return the results of a train's stop as a message."""
     head = {
         "controller_version": [car.controller_version for car in stop.cars],
         "contract": [car.contract for car in stop.cars],
@@ -191,11 +191,11 @@ def train_stop_message(stop: TrainStop) -> Message:
 
 
 def train_stop_of(message: Message, parameters: Any) -> TrainStop:
-    """Return what a stop of a train has left; the parameters are those that it was given."""
-    *of_cars, couplers = _arrays(message.blocks, (*_STOP, COUPLER))
+    """Return the results of a train's stop from a message; `parameters` are those of its inputs."""
+    *of_cars, couplers = _arrays_of_blocks(message.blocks, (*_STOP, COUPLER))
     cars = zip(*(each.reshape(len(parameters), -1) for each in of_cars), strict=True)
     stated = message.head["controller_version"], message.head["contract"]
-    finished = tuple(_finished(*of_car) for of_car in zip(cars, *stated, strict=True))
+    finished = tuple(_finished_stops(*of_car) for of_car in zip(cars, *stated, strict=True))
     return TrainStop(finished, couplers, parameters)
 
 
@@ -220,12 +220,12 @@ def block_of(message: Message) -> BlockInputs:
 
 
 def run_message(run: BlockRun) -> Message:
-    """Return what stops leave as a message."""
+    """Return the results of stops as a message."""
     return Message({"failures": run.failures}, bytes_of((run.measures, run.wheelset_measures)))
 
 
 def run_of(message: Message) -> BlockRun:
-    """Return what stops have left."""
+    """Return the results of stops from a message."""
     measures, wheelset_measures = message.blocks
     return BlockRun(
         np.frombuffer(measures, STOP_MEASURES),

@@ -98,7 +98,7 @@ class PrintedOutput:
                     self.close()
 
     def taken(self) -> str:
-        """Return what was printed since the last time, and how much of that was not kept."""
+        """Return the text printed since the last call, with a note on the bytes of it that were dropped."""
         self.read()
         text, lost = self._kept.decode("utf-8", "replace"), self._size - len(self._kept)
         self._kept, self._size = bytearray(), 0
@@ -143,7 +143,7 @@ class Worker:
             shared.truncate(LARGEST_BLOCK * EXCHANGE.itemsize)
             self._memory = mmap.mmap(shared.fileno(), 0)
             self._exchanges: Any = np.frombuffer(self._memory, EXCHANGE)
-            self._process, self._channel = _started(shared.fileno(), self._folder.name, printed)
+            self._process, self._channel = _start_process(shared.fileno(), self._folder.name, printed)
         self._release = weakref.finalize(self, _end, self._process, self._channel, self._folder, printed)
         self.usable = True
         """Whether another stop may be run on it."""
@@ -172,16 +172,16 @@ class Worker:
         self._release()
 
     def _answer(self, request: Message, programs: Any, read: Callable[[Message], Read]) -> Read:
-        """Return what is read in the answer. Raises ControllerError; a damaged child is not used again."""
+        """Return the content of the answer. Raises ControllerError; a damaged child is not used again."""
         # Only those in use: a library may write over any.
         self._exchanges = np.frombuffer(self._memory, EXCHANGE, len(programs))
         try:
-            answer = self._asked(request, [program.time_limit for program in programs])
+            answer = self._answer_to(request, [program.time_limit for program in programs])
             error = answer.head.get("error", "")
             try:
                 result = None if error else read(answer)
             except Exception:  # its true answer would be taken for that of the next stop
-                raise self._lost("its process sent something else than an answer") from None
+                raise self._lost_child_error("its process sent something else than an answer") from None
         except BaseException:
             self.close()
             raise
@@ -191,23 +191,25 @@ class Worker:
             raise ControllerError(str(error))
         return result
 
-    def _asked(self, request: Message, time_limits: Sequence[float]) -> Message:
+    def _answer_to(self, request: Message, time_limits: Sequence[float]) -> Message:
         try:
             self._request(request)
             self._wait(time_limits)
             with self._channel.makefile("rb") as answers:
                 return read_message(answers)
         except (BrokenMessageError, TimeoutError):
-            raise self._lost("its process sent something else than an answer") from None
+            raise self._lost_child_error("its process sent something else than an answer") from None
         except (StreamEndedError, BrokenPipeError, ConnectionResetError):
-            raise self._lost(self._ending()) from None
+            raise self._lost_child_error(self._ending_in_words()) from None
 
     def _request(self, request: Message) -> None:
         with self._channel.makefile("wb") as requests:
             try:
                 write_message(requests, request)
             except TimeoutError:
-                raise self._lost(f"its process took no request within {ANSWER_LIMIT:g} s") from None
+                raise self._lost_child_error(
+                    f"its process took no request within {ANSWER_LIMIT:g} s"
+                ) from None
 
     def _wait(self, time_limits: Sequence[float]) -> None:
         """Wait for an answer; a child that does not get on in time, whatever it does, is an error."""
@@ -225,20 +227,20 @@ class Worker:
             least = {STEPPING: 0.0, NOT_CALLED: IDLE_LIMIT}.get(calling, OPENING_LIMIT)
             limit = max(least, time_limits[stop])
             if monotonic() - since > limit:
-                raise self._lost(f"{_NAMES[calling]} did not return within {limit:g} s")
+                raise self._lost_child_error(f"{_NAMES[calling]} did not return within {limit:g} s")
 
     def _state(self) -> tuple[int, int, int]:
-        """Return which stop's controller is asked at present, for what, and how many steps were begun."""
+        """Return the stop whose controller is being called, the kind of call, and the steps begun so far."""
         calling = self._calling()
         stop = int(calling.argmax())
         return stop, int(calling[stop]), int(self._exchanges["cycles"].sum())
 
     def _calling(self) -> Any:
-        """Return what each controller is asked at present; what a library wrote over it is no call."""
+        """Return the present call of each controller; a number that a library wrote over it is not a call."""
         calling = self._exchanges["calling"]
         return np.where(np.isin(calling, list(_NAMES)), calling, NOT_CALLED)
 
-    def _lost(self, what: str) -> LostChildError:
+    def _lost_child_error(self, what: str) -> LostChildError:
         """Return the error of the stop whose controller has not returned."""
         calling = np.flatnonzero(self._calling())
         stop = int(calling[0]) if calling.size else None
@@ -246,7 +248,7 @@ class Worker:
         cycle = f"cycle {exchange['cycle']}" if exchange["cycles"] else "before the first cycle"
         return LostChildError(f"{what} ({cycle})", stop)
 
-    def _ending(self) -> str:
+    def _ending_in_words(self) -> str:
         """Return in words how the child ended."""
         _, calling, _ = self._state()
         try:
@@ -260,7 +262,7 @@ class Worker:
         return within + (crash or f"ended its process with exit code {code}")
 
 
-def _started(exchange_file: int, folder: str, printed: PrintedOutput) -> tuple[GuardedProcess, socket]:
+def _start_process(exchange_file: int, folder: str, printed: PrintedOutput) -> tuple[GuardedProcess, socket]:
     channel, its_channel = socketpair()
     channel.settimeout(ANSWER_LIMIT)
     streams = {"stdin": its_channel, "stdout": its_channel, "stderr": printed.its_end}

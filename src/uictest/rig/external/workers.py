@@ -30,7 +30,7 @@ RunTrain = Callable[[TrainInputs, int], TrainStop]
 
 
 def in_real_time(run: RunInputs) -> RunInputs:
-    """Return what runs a stop as `run` does, its cycles paced by the clock."""
+    """Return a function that runs a stop as `run` does, with cycles paced by the clock."""
 
     def run_in_real_time(inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
         if inputs.program is None:
@@ -112,7 +112,7 @@ class Workers:
             cases_of.setdefault(program.key if _is_isolated(program) else None, []).append(case)
         for key, cases in cases_of.items():
             if key is None:
-                _put(run, cases, run_block(inputs.at(cases)))
+                _copy_into(run, cases, run_block(inputs.at(cases)))
                 continue
             for first in range(0, len(cases), LARGEST_BLOCK):
                 self._run_isolated(inputs, cases[first : first + LARGEST_BLOCK], run)
@@ -138,7 +138,7 @@ class Workers:
         while cases:
             try:
                 with self._worker(inputs.programs[cases[0]]) as worker:
-                    _put(run, cases, worker.run_block(inputs.at(cases)))
+                    _copy_into(run, cases, worker.run_block(inputs.at(cases)))
                 return
             except LostChildError as error:
                 if error.index is None and len(cases) > 1:
@@ -150,7 +150,7 @@ class Workers:
     @contextmanager
     def _worker(self, *programs: ControllerProgram | None) -> Iterator[Worker]:
         """Lend this thread a child for some programs."""
-        worker = self._taken(frozenset(each.key for each in programs if each is not None))
+        worker = self._take_or_start(frozenset(each.key for each in programs if each is not None))
         try:
             yield worker
         except ControllerError as error:
@@ -165,7 +165,7 @@ class Workers:
                 elif worker in self._all:
                     self._all.remove(worker)
 
-    def _taken(self, keys: frozenset[ProgramKey]) -> Worker:
+    def _take_or_start(self, keys: frozenset[ProgramKey]) -> Worker:
         with self._lock:
             if self._closed:
                 raise RuntimeError("the child processes have been ended")
@@ -185,7 +185,7 @@ def _is_isolated(program: ControllerProgram | None) -> TypeGuard[ControllerProgr
     return program is not None and program.kind != "connect"
 
 
-def _put(run: BlockRun, cases: Sequence[int], part: BlockRun) -> None:
+def _copy_into(run: BlockRun, cases: Sequence[int], part: BlockRun) -> None:
     run.measures[cases], run.wheelset_measures[cases] = part.measures, part.wheelset_measures
     for case, failure in zip(cases, part.failures, strict=True):
         run.failures[case] = failure

@@ -36,7 +36,7 @@ _SUBJECTS = ("hysteresis", "cylinder", "air")
 
 @dataclass(frozen=True, slots=True)
 class Provenance:
-    """Where the numbers of an identification come from, as text.
+    """Origin of the numbers of an identification, as text.
 
     Attributes:
         record: name of the recording's file.
@@ -74,9 +74,9 @@ def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensat
         files = Files(Roots.of([Path(reference)], trusted))
         part: Compensation = Parts(files).part(files.at(Path(reference)), Compensation, ()).part
         return part
-    place = whole_file(Path("--base"))
+    location = whole_file(Path("--base"))
     named: Compensation = (
-        Parts(Files()).part(Scalar(reference, reference, place), Compensation, ("base",)).part
+        Parts(Files()).part(Scalar(reference, reference, location), Compensation, ("base",)).part
     )
     return named
 
@@ -97,10 +97,10 @@ def with_hysteresis(
 ) -> str:
     """Return the text of ``base`` with the level lines of ``result``; WSP phases without get the BC line."""
     source, option = "identified-hysteresis", "hysteresis-option"
-    numbers = _numbers(base)
-    numbers["linear"] = _line(result.linear, source)
+    numbers = _sourced_parameters(base)
+    numbers["linear"] = _line_entry(result.linear, source)
     numbers["hysteresis"] = {
-        **{phase: _line(line, source) for phase, line in all_four(result.level_lines).items()},
+        **{phase: _line_entry(line, source) for phase, line in all_four(result.level_lines).items()},
         "transition_time": _Number(f"{transition * 1e3:.6g} ms", option),
         "wsp_acting_time": _Number(f"{acting_time:.6g} s", option),
     }
@@ -109,13 +109,13 @@ def with_hysteresis(
         f" rms {100.0 * result.rms_error:.2f} % of {result.largest_force / KILONEWTON:.2f} kN"
     )
     sources = {
-        source: _identified("Four-phase hysteresis", provenance, fit),
+        source: _source_of_identification("Four-phase hysteresis", provenance, fit),
         option: {
             "mark": "chosen",
             "text": "Options --transition-time and --acting-time of the identification",
         },
     }
-    return _text(base, name, numbers, sources, provenance, "hysteresis", fit)
+    return _file_text(base, name, numbers, sources, provenance, "hysteresis", fit)
 
 
 def with_cylinder(base: Compensation, name: str, result: CylinderResult, provenance: Provenance) -> str:
@@ -125,7 +125,7 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
     """
     source = "identified-cylinder"
     model = result.transfer_function
-    numbers = _numbers(base)
+    numbers = _sourced_parameters(base)
     if abs(base.sampling_time - model.sampling_time) > 1e-12:
         numbers["sampling_time"] = _Number(f"{model.sampling_time * 1e3:.9g} ms", source)
     numbers["cylinder"] = {
@@ -137,14 +137,14 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
         f" ({100.0 * result.largest_before:.2f} % without) of {result.largest_pressure / BAR:.3f} bar,"
         f" fit {result.fit:.2f} %"
     )
-    sources = {source: _identified("Cylinder dynamics", provenance, fit)}
-    return _text(base, name, numbers, sources, provenance, "cylinder", fit)
+    sources = {source: _source_of_identification("Cylinder dynamics", provenance, fit)}
+    return _file_text(base, name, numbers, sources, provenance, "cylinder", fit)
 
 
 def with_air(base: Compensation, name: str, result: AirResult, provenance: Provenance) -> str:
     """Return the text of ``base`` with the air of ``result``."""
     source = "identified-air"
-    numbers = _numbers(base)
+    numbers = _sourced_parameters(base)
     numbers["air"] = {
         "tank_heat_conductance": _Number(f"{result.tank_heat_conductance:.6g} W/K", source),
         "caliper_heat_conductance": _Number(f"{result.caliper_heat_conductance:.6g} W/K", source),
@@ -157,18 +157,18 @@ def with_air(base: Compensation, name: str, result: AirResult, provenance: Prove
         f" ({100.0 * result.largest_before:.2f} % without), rms {100.0 * result.rms_after:.2f} %"
         f" of {result.largest_pressure / BAR:.3f} bar"
     )
-    sources = {source: _identified("Air of the caliper's module", provenance, fit)}
-    return _text(base, name, numbers, sources, provenance, "air", fit)
+    sources = {source: _source_of_identification("Air of the caliper's module", provenance, fit)}
+    return _file_text(base, name, numbers, sources, provenance, "air", fit)
 
 
-def _line(line: FittedLine, source: str) -> Numbers:
+def _line_entry(line: FittedLine, source: str) -> Numbers:
     return {
         "slope": _Number(f"{line.slope / KILONEWTON_PER_BAR:.6g} kN/bar", source),
         "intercept": _Number(f"{line.intercept:.6g} N", source),
     }
 
 
-def _numbers(base: Compensation) -> Numbers:
+def _sourced_parameters(base: Compensation) -> Numbers:
     return {
         "sampling_time": _with_source(base.sampling_time),
         "linear": _with_sources(base.linear),
@@ -185,7 +185,7 @@ def is_of_one_rig(facts: Mapping[str, str]) -> bool:
 
 
 def _listed_rig(rig: Mapping[str, str], tolerances_of: Compensation) -> Numbers:
-    """Return the section that lists a rig, given by the keys of a scenario; the last two elements tell."""
+    """Return the section `identified_for` of a rig; of its dotted keys the last two elements count."""
     assert tolerances_of.identified_for is not None
     numbers: Numbers = {"caliper": {}, "wsp_valve": {}}
     for key, text in rig.items():
@@ -209,7 +209,7 @@ def _with_source(quantity: Quantity) -> _Number:
     return _Number(quantity.text, quantity.source)
 
 
-def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str]:
+def _source_of_identification(subject: str, provenance: Provenance, fit: str) -> dict[str, str]:
     text = (
         f"{subject} identified from {provenance.record} ({provenance.origin}; SHA-256 {provenance.digest})"
         f" by `{provenance.command}`; {fit}"
@@ -217,7 +217,7 @@ def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str
     return {"mark": "identified", "text": text}
 
 
-def _provenance(subject: str, base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
+def _updated_provenance(subject: str, base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
     """Return the provenance of ``base`` with the facts of the identification of one subject replaced."""
     facts = {
         f"{subject} record": provenance.record,
@@ -234,7 +234,7 @@ def _provenance(subject: str, base: Compensation, provenance: Provenance, fit: s
     return unchanged | {key: fact for key, fact in facts.items() if fact}
 
 
-def _text(
+def _file_text(
     base: Compensation,
     name: str,
     numbers: Numbers,
@@ -243,12 +243,12 @@ def _text(
     subject: str,
     fit: str,
 ) -> str:
-    facts = _provenance(subject, base, provenance, fit)
+    facts = _updated_provenance(subject, base, provenance, fit)
     described = {**{key: source.model_dump() for key, source in base.sources.items()}, **sources}
     if is_of_one_rig(facts) and provenance.rig:
         tolerances = load_compensation(_TOLERANCES_OF)
-        others = {key: source.model_dump() for key, source in tolerances.sources.items()}
-        described = {**others, **described, RIG_SOURCE: _RIG_DESCRIBED}
+        sources_of_tolerances = {key: source.model_dump() for key, source in tolerances.sources.items()}
+        described = {**sources_of_tolerances, **described, RIG_SOURCE: _RIG_DESCRIBED}
         numbers["identified_for"] = _listed_rig(provenance.rig, tolerances)
     used = set(_sources_of(numbers))
     document = {

@@ -156,7 +156,7 @@ def identify_cylinder(
     if not any(is_held_out[braking].any() and not is_held_out[braking].all() for braking in brakings):
         raise UnsuitableRecordError("no brake application: the pressures must rise from rest and hold")
     segments = [
-        _segment(tank_pressure[braking], cylinder_pressure[braking], ~is_held_out[braking])
+        _fit_segment(tank_pressure[braking], cylinder_pressure[braking], ~is_held_out[braking])
         for braking in brakings
     ]
     poles, weights = refined(segments, step)
@@ -165,7 +165,7 @@ def identify_cylinder(
     held = np.concatenate([is_held_out[braking] for braking in brakings])
     tank = np.concatenate([tank_pressure[braking] for braking in brakings])
     cylinder = np.concatenate([cylinder_pressure[braking] for braking in brakings])
-    return _assessed(model, tank[held], cylinder[held], np.concatenate(computed)[held])
+    return _assessed_model(model, tank[held], cylinder[held], np.concatenate(computed)[held])
 
 
 def fitted_freely(time: Samples, tank_pressure: Samples, cylinder_pressure: Samples) -> TransferFunction:
@@ -179,7 +179,7 @@ def fitted_freely(time: Samples, tank_pressure: Samples, cylinder_pressure: Samp
     step = required_sampling_time(time, pressures, _SHORTEST, _LONGEST_STEP)
     brakings = applications(tank_pressure, cylinder_pressure, step)
     pairs = [(tank_pressure[braking], cylinder_pressure[braking]) for braking in brakings]
-    segments = [_segment(tank, cylinder, np.ones(len(tank), bool)) for tank, cylinder in pairs]
+    segments = [_fit_segment(tank, cylinder, np.ones(len(tank), bool)) for tank, cylinder in pairs]
     return assembled(*refined(segments, step, free_weights), step)
 
 
@@ -228,11 +228,13 @@ def air_text(result: AirResult) -> str:
     )
 
 
-def _segment(tank: Samples, cylinder: Samples, fitted: Mask) -> FitSegment:
+def _fit_segment(tank: Samples, cylinder: Samples, fitted: Mask) -> FitSegment:
     return FitSegment(tank - tank[0], cylinder - tank[0], fitted)
 
 
-def _assessed(model: TransferFunction, tank: Samples, cylinder: Samples, computed: Samples) -> CylinderResult:
+def _assessed_model(
+    model: TransferFunction, tank: Samples, cylinder: Samples, computed: Samples
+) -> CylinderResult:
     largest = float(cylinder.max())
     spread = float(np.sqrt(np.mean((cylinder - cylinder.mean()) ** 2)))
     return CylinderResult(

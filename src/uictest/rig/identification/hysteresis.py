@@ -100,13 +100,13 @@ def identify_hysteresis(
     _require_force(force)
     largest = float(force.max())
     is_held_out = held_out(len(time), held_out_share)
-    points = _points(pressure, force, wsp_acting, ~is_held_out, step)
-    lines = _lines(pressure, force, points)
+    points = _level_points(pressure, force, wsp_acting, ~is_held_out, step)
+    lines = _fitted_lines(pressure, force, points)
 
     def computed_by(lines: Mapping[str, FittedLine]) -> Samples:
         return computed_force(pressure, wsp_acting, all_four(lines), transition_time, step, float(force[0]))
 
-    level_lines = _level(lines, points, computed_by(lines) - force)
+    level_lines = _fitted_level(lines, points, computed_by(lines) - force)
     computed = computed_by(level_lines)
     error = ((computed - force) / largest)[is_held_out]
     squeezing, releasing = lines["bc_squeezing"], lines["bc_releasing"]
@@ -116,7 +116,7 @@ def identify_hysteresis(
         FittedLine(
             0.5 * (squeezing.slope + releasing.slope), 0.5 * (squeezing.intercept + releasing.intercept)
         ),
-        _widths(lines, HIGH_FORCE * largest),
+        _hysteresis_widths(lines, HIGH_FORCE * largest),
         HIGH_FORCE * largest,
         float(np.abs(error).max()),
         float(np.sqrt(np.mean(error**2))),
@@ -162,7 +162,7 @@ def _require_force(force: Samples) -> None:
         raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
 
 
-def _points(
+def _level_points(
     pressure: Samples, force: Samples, acting: Mask, fitted: Mask, step: float
 ) -> dict[str, NDArray[np.int_]]:
     """Return the samples to be fitted of each phase that spans enough pressure."""
@@ -177,7 +177,7 @@ def _points(
     return points
 
 
-def _lines(
+def _fitted_lines(
     pressure: Samples, force: Samples, points: Mapping[str, NDArray[np.int_]]
 ) -> dict[str, FittedLine]:
     lines: dict[str, FittedLine] = {}
@@ -192,7 +192,7 @@ def _lines(
     return lines
 
 
-def _level(
+def _fitted_level(
     lines: Mapping[str, FittedLine], points: Mapping[str, NDArray[np.int_]], error: Samples
 ) -> dict[str, FittedLine]:
     """Return the lines without the mean error that the model makes on them.
@@ -217,7 +217,7 @@ def all_four(lines: Mapping[str, FittedLine]) -> dict[str, FittedLine]:
     }
 
 
-def _widths(lines: dict[str, FittedLine], force: float) -> dict[str, float]:
+def _hysteresis_widths(lines: dict[str, FittedLine], force: float) -> dict[str, float]:
     pairs = {"bc": ("bc_squeezing", "bc_releasing"), "wsp": ("wsp_squeezing", "wsp_releasing")}
     return {
         kind: lines[squeezing].pressure(force) - lines[releasing].pressure(force)

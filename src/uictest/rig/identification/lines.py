@@ -189,9 +189,11 @@ def computed_force(
         step: sampling time, s.
         start: force before the record, N.
     """
-    share = _shares(wsp_acting, step / max(transition_time, step))
-    lower = _mixed(pressure, lines["bc_squeezing"], lines["wsp_squeezing"], share)
-    upper = np.maximum(_mixed(pressure, lines["bc_releasing"], lines["wsp_releasing"], share), lower)
+    share = _rate_limited_shares(wsp_acting, step / max(transition_time, step))
+    lower = _force_of_mixed_lines(pressure, lines["bc_squeezing"], lines["wsp_squeezing"], share)
+    upper = np.maximum(
+        _force_of_mixed_lines(pressure, lines["bc_releasing"], lines["wsp_releasing"], share), lower
+    )
     force, held = [], start
     for low, high in zip(lower.tolist(), upper.tolist(), strict=True):
         if held < low:
@@ -202,13 +204,13 @@ def computed_force(
     return np.array(force)
 
 
-def _mixed(pressure: Samples, bc: FittedLine, wsp: FittedLine, share: Samples) -> Samples:
+def _force_of_mixed_lines(pressure: Samples, bc: FittedLine, wsp: FittedLine, share: Samples) -> Samples:
     slope = bc.slope + share * (wsp.slope - bc.slope)
     intercept = bc.intercept + share * (wsp.intercept - bc.intercept)
     return np.asarray(np.maximum(slope * pressure + intercept, 0.0))
 
 
-def _shares(acting: Mask, largest_change: float) -> Samples:
+def _rate_limited_shares(acting: Mask, largest_change: float) -> Samples:
     if acting.all() or not acting.any():
         return acting.astype(float)
     shares, share = [], float(acting[0])

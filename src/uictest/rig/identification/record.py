@@ -237,7 +237,7 @@ def require_excitation(name: str, pressure: Samples, step: float) -> None:
 
 
 def held_out(count: int, share: float) -> Mask:
-    """Return which samples are excluded from the fit: segments spread over the whole record."""
+    """Return the mask of samples that are excluded from the fit: segments spread over the whole record."""
     number = np.arange(count) * _SEGMENTS // count
     return np.asarray(np.floor((number + 1) * share) > np.floor(number * share))
 

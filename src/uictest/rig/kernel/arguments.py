@@ -39,7 +39,7 @@ class Length:
 
 
 class At:
-    """What lies at an address: one record; or, with a shape, an array of records or numbers."""
+    """Layout of the memory at an address: one record; or, with a shape, an array of records or numbers."""
 
     __slots__ = ("layout", "shape")
 
@@ -47,13 +47,13 @@ class At:
         self.layout, self.shape = np.dtype(layout), shape
 
     def address_of(self, value: Any, numbers: dict[str, int]) -> int:
-        """Return where a record or an array of numpy lies; the first array with a length decides it.
+        """Return the address of a numpy record or array; the first array with a named length sets it.
 
         Args:
             value: the record or array.
             numbers: those of the lengths, by their names; added to here.
 
-        Raises TypeError for another layout or shape: machine code does not check what is behind an address.
+        Raises TypeError for another layout or shape: machine code does not check the memory at an address.
         """
         shape = tuple(
             size if isinstance(size, int) else size.of(numbers.setdefault(size.name, size.number(found)))
@@ -105,7 +105,7 @@ def lengths(arguments: Arguments) -> list[str]:
 
 
 def passed(arguments: Arguments, values: Arguments) -> tuple[int, ...]:
-    """Return what a function of C is called with: numbers of lengths, then addresses and whole numbers.
+    """Return the arguments of a call of a C function: lengths, then addresses and whole numbers.
 
     Args:
         arguments: what the function takes.
@@ -114,15 +114,15 @@ def passed(arguments: Arguments, values: Arguments) -> tuple[int, ...]:
     Raises TypeError where a value does not have the layout or the shape described.
     """
     numbers: dict[str, int] = {}
-    rest = [
+    addresses_and_numbers = [
         value if argument is int else argument.address_of(value, numbers)
         for argument, value in zip(leaves(arguments), leaves(values), strict=True)
     ]
-    return (*numbers.values(), *rest)
+    return (*numbers.values(), *addresses_and_numbers)
 
 
 def placed(arguments: Arguments, values: Arguments, *blocks: NDArray[Any]) -> Iterator[tuple[int, int]]:
-    """Yield what a function of C is called with elsewhere, where copies of the same blocks of memory lie.
+    """Yield the arguments of a call of a C function for copies of these blocks of memory elsewhere.
 
     Args:
         arguments: what the function takes.
@@ -130,7 +130,7 @@ def placed(arguments: Arguments, values: Arguments, *blocks: NDArray[Any]) -> It
         blocks: arrays in one piece.
 
     Yields:
-        Number of a block, from 1, and a place in it; or 0 and a number that is no place.
+        Number of a block, from 1, and an offset in it; or 0 and a plain number.
     """
     numbers = passed(arguments, values)
     count = len(numbers) - sum(1 for _ in leaves(arguments))

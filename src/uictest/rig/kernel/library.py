@@ -40,7 +40,7 @@ _TURN: Final = threading.Lock()
 
 
 class KernelError(OSError):
-    """There is no machine code that may be run; the message says why, and what to do."""
+    """No machine code can be run; the message gives the reason and a remedy."""
 
 
 class Built(NamedTuple):
@@ -75,25 +75,25 @@ class Built(NamedTuple):
 
     def fitting(self) -> Path | None:
         """Return the library of these sources, if it is there as it was built."""
-        for path, digests in self._found():
+        for path, digests in self._files_with_digests():
             if _are_of_the_sources(digests) and digests[-1] == digest_of(path.read_bytes()):
                 return path
         return None
 
-    def _found(self) -> list[tuple[Path, list[str]]]:
-        found = self.folder.glob(f"{self.name}-*.{self.suffix}")
+    def _files_with_digests(self) -> list[tuple[Path, list[str]]]:
+        paths = self.folder.glob(f"{self.name}-*.{self.suffix}")
         return [
-            (path, path.stem.removeprefix(f"{self.name}-").split("-")) for path in found if path.is_file()
+            (path, path.stem.removeprefix(f"{self.name}-").split("-")) for path in paths if path.is_file()
         ]
 
     def _why_none_fits(self) -> str:
-        found = self._found()
-        fitting = [path for path, digests in found if _are_of_the_sources(digests)]
+        files = self._files_with_digests()
+        fitting = [path for path, digests in files if _are_of_the_sources(digests)]
         if fitting:
             return f"{fitting[0]} is damaged"
-        if found:
+        if files:
             places = f"{PACKAGE} and {BUILDER}" if _is_checkout() else PACKAGE
-            return f"the files in {places} are not those that {found[0][0]} was built from"
+            return f"the files in {places} are not those that {files[0][0]} was built from"
         return f"{self.folder} has no machine code for {self.system}"
 
     def _built(self) -> Path:
@@ -228,7 +228,7 @@ def function_of_addresses(entry: Entry, level: str | None = None) -> Callable[..
 
 
 def register_width() -> int:
-    """Return how many double-precision numbers a register of this processor holds."""
+    """Return the number of double-precision numbers in a register of this processor."""
     return WIDTHS[processor()]
 
 

@@ -1,7 +1,7 @@
-"""What happens once per controller cycle: read the sensors, let the controller decide, set the valves.
+"""Work of each controller cycle: read the sensors, let the controller decide, set the valves.
 
-Reading sensors and setting valves has no branches and runs in lanes, too; the controller between them is
-scalar code that may branch and look up tables. Speed sensors that count whole teeth, or whose pole wheel is
+Reading sensors and setting valves has no branches, so that SIMD lanes can run it; the controller between them
+is scalar code that may branch and use tables. Speed sensors that count whole teeth, or whose pole wheel is
 eccentric or has lost teeth, are read only in stops where a wheelset has one. So is what tells a controller of
 the train besides its wheelsets, a second source of speed and an accelerometer: their noise has channels of
 its own, so that all other sensors read what they read without them.
@@ -41,7 +41,7 @@ CHANNELS = 16
 SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
 """Noise channels of a wheelset's sensors."""
 _LINE = 4 * CHANNELS
-"""Noise channel of the brake line's pressure sensor, behind those of the wheelsets."""
+"""Noise channel of the brake line's pressure sensor, after those of the wheelsets."""
 TRAIN_SPEED, TRAIN_ACCELERATION = _LINE + 1, _LINE + 2
 """Noise channels of the second source of speed and of the accelerometer."""
 _PHASE = 3

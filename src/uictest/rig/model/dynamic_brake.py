@@ -88,7 +88,7 @@ def _watch_calipers(
 
 
 def brake_dynamically(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Set the torque of the dynamic brake on each wheelset for one step, from its own rotation; in lanes."""
+    """Set the torque of the dynamic brake on each wheelset for one step, from its own rotation."""
     for i in range(4):
         wheelset = wheelsets[i]
         rim_speed = abs(wheelset.rotation) * wheelset.wheel_radius

@@ -1,8 +1,8 @@
 """Faults once per controller cycle: which are active, and what they make of sensors, commands and valves.
 
 Scalar code, only in stops that have faults. Where two faults act on one number, the later one of the list
-acts on what the earlier one has left. Air leaks from tanks and from the brake line in every step, in lanes,
-only in stops with such a fault.
+acts on what the earlier one has left. Air leaks from tanks and from the brake line in every step, in code
+for SIMD lanes, only in stops with such a fault.
 """
 
 from collections.abc import Sequence

@@ -155,9 +155,9 @@ def _step_hysteresis(wheelset: Wheelset, p: Parameters) -> None:
 def follow_tanks(wheelsets: Sequence[Wheelset], line: float, p: Parameters) -> None:
     """Advance the modelled air by one base step, before the rig itself is stepped: compensation `thermal`.
 
-    Beside a tank it follows the air that a caliper's module would hold. It knows what the rig's computer
+    For a tank it models the air that a caliper's module would hold. It knows what the rig's computer
     knows: the readings of the tank's and the brake line's pressure, and how far the valves are open. The
-    first module always has a caliper, and what is modelled beside a caliper nothing reads.
+    first module always has a caliper; nothing reads modelled air of a module with a caliper.
     """
     for i in range(1, 4):
         follow_tank(wheelsets[i], line, p)

@@ -144,7 +144,7 @@ def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:
 
 
 def value_at(position: float, points: Sequence[float], ring: int) -> float:
-    """Return what lies before a wheelset at a place, in units of the grid; linear between points."""
+    """Return the value before a wheelset at a position in grid units, linear between points."""
     point = floor(position)
     at_point = points[in_ring(int(point), ring)]
     return at_point + (position - point) * (points[in_ring(int(point) + 1, ring)] - at_point)
@@ -171,7 +171,7 @@ def clean_passed(
 
 
 def in_ring(point: int, ring: int) -> int:
-    """Return where a point of the track, counted from the brake command, lies among all points."""
+    """Return the index, among all stored points, of a point of the track counted from the brake command."""
     return ring * POINTS + point % POINTS
 
 

@@ -67,7 +67,7 @@ def car_of(train: TrainRecords, j: int) -> CarRecords:
 
 
 class Needs(NamedTuple):
-    """How many steps a controller cycle has, and what it has to do that not every rig needs."""
+    """Number of steps in a controller cycle, and the parts of the model that a rig needs."""
 
     steps: int
     pole_wheels: bool
@@ -81,7 +81,7 @@ class Needs(NamedTuple):
 
 
 def needs_of(p: Parameters) -> Needs:
-    """Return what a rig needs."""
+    """Return the needs of a rig."""
     return Needs(
         p.steps_per_cycle,
         p.uses_pole_wheels > 0.0,
@@ -96,7 +96,7 @@ def needs_of(p: Parameters) -> Needs:
 
 
 def needs_of_both(one: Needs, other: Needs) -> Needs:
-    """Return what two rigs need that run side by side, with as many steps in a cycle."""
+    """Return the needs of two rigs that run side by side, with equal numbers of steps in a cycle."""
     return Needs(
         other.steps,
         one.pole_wheels or other.pole_wheels,

@@ -355,6 +355,6 @@ def hold_speed(car: Car, p: Parameters) -> None:
 
 
 def traction_force(car: Car, drag: float, p: Parameters) -> float:
-    """Return the force on the car body, N, against ``drag`` N and the forces summed on it; in lanes."""
+    """Return the force on the car body, N, against ``drag`` N and the forces summed on it."""
     missing = (p.drag_speed - car.speed) * p.body_mass_rate
     return car.holds_speed * maximum(missing + drag - car.longitudinal_force, 0.0)

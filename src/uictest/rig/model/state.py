@@ -254,7 +254,7 @@ class ModuleStep(Record):
 
 
 class Coupler(Record):
-    """A coupler behind a car: its numbers, its state and its ledgers."""
+    """The coupler after a car: its numbers, its state and its ledgers."""
 
     stiffness: float  # N/m
     damping: float  # N s/m

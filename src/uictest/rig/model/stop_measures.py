@@ -88,7 +88,7 @@ def observe_cycle(
 def _state(
     wheelset: Wheelset, measures: WheelsetMeasures, stands: bool, speed: float, p: Parameters
 ) -> WheelsetState:
-    """Return what is observed of a wheelset; at standstill its valve and its brake count no more."""
+    """Return the observed state of a wheelset; from standstill on, its valve and brake are not counted."""
     return WheelsetState(
         wheelset.rotation * wheelset.wheel_radius,
         select(stands, measures.venting, wheelset.venting),
@@ -158,7 +158,7 @@ def observe_reports(
 ) -> None:
     """Feed the measures of what the controller reports, after the others of the same cycle; scalar code.
 
-    Nothing, where there is no fault to report and no controller that can: built in, they have no diagnosis.
+    Does nothing without faults if the controller is built in: built-in controllers report no faults.
     """
     if p.fault_count == 0 and p.controller != FROM_OUTSIDE:
         return

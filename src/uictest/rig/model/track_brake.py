@@ -2,7 +2,8 @@
 
 Half of the magnets hang from each bogie and drag it at the height of the traction link. The force follows
 from the state before a step, and its work, with the mean of the speeds of that point before and after it, is
-known behind the step, so that energy closes.
+added after the step, so that energy closes. All but scalar code works for one stop and for many stops side by
+side in SIMD lanes.
 """
 
 from collections.abc import Sequence
@@ -39,7 +40,7 @@ def command_track_brake(car: Car, p: Parameters) -> None:
 
 
 def drag_magnets(car: Car, bogies: Sequence[Bogie], p: Parameters) -> None:
-    """Set the force of the magnets on both bogies for the coming step; in lanes."""
+    """Set force and moment of the magnets on each bogie for the coming step, and the sum of the forces."""
     _drag(bogies[0], car, p)
     _drag(bogies[1], car, p)
     car.track_brake_force = 0.0 - (bogies[0].magnet_force + bogies[1].magnet_force)
@@ -59,7 +60,11 @@ def _drag(bogie: Bogie, car: Car, p: Parameters) -> None:
 
 
 def account_for_magnets(car: Car, bogies: Sequence[Bogie], p: Parameters) -> None:
-    """Add the work of the magnets in the step that has just been made; in lanes."""
+    """Add the energy that the magnets took in the last step.
+
+    Each bogie's force is constant within a step; its work is that force times the mean of the magnets' speeds
+    before and after the step. To be called after the step, with ``magnet_speed`` still that of before.
+    """
     leading = bogies[0].magnet_force * (bogies[0].magnet_speed + _magnet_speed(bogies[0], p))
     trailing = bogies[1].magnet_force * (bogies[1].magnet_speed + _magnet_speed(bogies[1], p))
     car.track_brake_energy -= 0.5 * p.step * (leading + trailing)

@@ -41,7 +41,7 @@ def run_train(train: TrainRecords, trace: Trace, steps_per_sample: int) -> int:
 
     The measures of a car are those up to its own standstill; it stays coupled until all cars stand. Steps run
     in whole controller cycles: standstill is interpolated within its step and the cycle is finished, so that
-    a stop runs the same steps alone or beside others. Recording reads the state and never changes it.
+    a stop runs the same steps alone or together with others. Recording reads the state and never changes it.
 
     Args:
         train: records of the train.
@@ -215,7 +215,7 @@ def release_couplers(car: Car) -> None:
 def pull_cars(
     coupler: Coupler, leading: Car, leading_p: Parameters, trailing: Car, trailing_p: Parameters
 ) -> None:
-    """Add the force of a coupler to the cars before and behind it, for a step; in lanes, too."""
+    """Add the force of a coupler to the cars before and after it, for a step."""
     coupler.leading_speed = point_speed(leading, leading_p, coupler)
     coupler.trailing_speed = point_speed(trailing, trailing_p, coupler)
     stretch = point_position(leading, leading_p, coupler) - point_position(trailing, trailing_p, coupler)
@@ -230,7 +230,7 @@ def pull_cars(
 def account_for_coupler(
     coupler: Coupler, leading: Car, leading_p: Parameters, trailing: Car, trailing_p: Parameters
 ) -> None:
-    """Add the work of a coupler in the step that has just been made; in lanes, too."""
+    """Add the work of a coupler in the last step."""
     leading_mean = 0.5 * (coupler.leading_speed + point_speed(leading, leading_p, coupler))
     trailing_mean = 0.5 * (coupler.trailing_speed + point_speed(trailing, trailing_p, coupler))
     duration = leading_p.step

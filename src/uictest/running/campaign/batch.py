@@ -124,7 +124,7 @@ def replay(
 
 
 NOT_JUDGED: Final = ("error", "skipped")
-"""Outcomes that no verdict stands behind."""
+"""Outcomes that do not follow from a verdict."""
 PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]
 """Case id -> role -> part."""
 
@@ -256,7 +256,7 @@ def run_cases(
         try:
             with stop_runs:
                 missed = 0
-                for case_run in _assembled(stop_runs, assembly, on_stop):
+                for case_run in _completed_cases(stop_runs, assembly, on_stop):
                     report(case_run)
                     missed += not batch.results[-1].met
                     if missed == settings.maxfail:
@@ -265,7 +265,7 @@ def run_cases(
             batch.interrupted = True
             own = replace(own, firmness=None)
             # Before the child processes end: their stops would come out as errors.
-            for case_run in _assembled(stop_runs.finished(), assembly, on_stop):
+            for case_run in _completed_cases(stop_runs.finished(), assembly, on_stop):
                 report(case_run)
             controllers.interrupt_turns()
     return batch
@@ -285,7 +285,7 @@ def judge_cases(
     return batch
 
 
-def _assembled(
+def _completed_cases(
     stop_runs: Iterable[Sequence[StopRun]], assembly: CaseAssembly, on_stop: Callable[[], None]
 ) -> Iterator[CaseRun]:
     """Yield each case once its last stop is there; at the end those that an interrupt kept from that."""

@@ -21,8 +21,12 @@ def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
 def _settings(scenario: Scenario) -> dict[str, str]:
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
     return {
-        "vehicle": _named(scenario.vehicle),
-        **({} if scenario.coupler is None else {"train": _train(scenario.coupler, brake.transmission)}),
+        "vehicle": _part_name(scenario.vehicle),
+        **(
+            {}
+            if scenario.coupler is None
+            else {"train": _train_in_words(scenario.coupler, brake.transmission)}
+        ),
         "initial speed": scenario.initial_speed.text
         + (
             ""
@@ -30,21 +34,23 @@ def _settings(scenario: Scenario) -> dict[str, str]:
             else f", {scenario.drag.speed.text} held for {scenario.drag.duration.text}"
         )
         + ("" if scenario.until is None else f", until {scenario.until.text}"),
-        "brake": f"{_named(brake.system)}, position {brake.position}, {brake.command_text}",
-        "rail": f"{_named(rail.condition)}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
+        "brake": f"{_part_name(brake.system)}, position {brake.position}, {brake.command_text}",
+        "rail": f"{_part_name(rail.condition)}, friction {_friction(scenario)},"
+        f" gradient {rail.gradient.text}",
         "WSP": f"{rig.wsp}, controller {_controller(scenario)}",
-        "rig": f"{rig.topology}, compensation {_named(rig.compensation_model)}, setting {rig.compensation}",
+        "rig": f"{rig.topology}, compensation {_part_name(rig.compensation_model)},"
+        f" setting {rig.compensation}",
         "criteria": ", ".join(profile.name for profile in scenario.criteria),
     }
 
 
-def _train(coupler: Coupler, line: Any) -> str:
+def _train_in_words(coupler: Coupler, line: Any) -> str:
     numbers = f"couplers {coupler.stiffness.text}, {coupler.damping.text}, {coupler.distance.text} apart"
     command = "a wire" if line in (None, "wire") else f"a pipe at {line.pipe.text}"
     return f"{numbers}; command along {command}"
 
 
-def _named(part: yaml.Part) -> str:
+def _part_name(part: yaml.Part) -> str:
     """Return the name of a part, and whether it differs from the part that it extends."""
     return f"{part.label} (changed)" if is_changed(part) else part.label
 
@@ -62,6 +68,6 @@ def _controller(scenario: Scenario) -> str:
     """Return the name of the controller; of one from outside, its version and what is loaded, too."""
     controller = scenario.controller
     if not isinstance(controller, ExternalController):
-        return _named(controller)
+        return _part_name(controller)
     version = f" {controller.version}" if controller.version else ""
-    return f"{_named(controller)}{version} ({controller.kind} {controller.reference})"
+    return f"{_part_name(controller)}{version} ({controller.kind} {controller.reference})"

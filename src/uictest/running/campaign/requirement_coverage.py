@@ -58,7 +58,9 @@ def requirement_coverage(
     found: dict[str, list[Verifier]] = {requirement: [] for requirement in listed}
     for requirement, verifier in chain(*map(_named_in_case, cases), *map(_named_in_series, series)):
         found.setdefault(requirement, []).append(verifier)
-    return [CoveredRequirement(each, _merged(found[each])) for each in scenario.in_order_of_ids(found)]
+    return [
+        CoveredRequirement(each, _merged_verifiers(found[each])) for each in scenario.in_order_of_ids(found)
+    ]
 
 
 def _named_in_case(case: scenario.Case) -> Iterator[tuple[str, Verifier]]:
@@ -85,13 +87,15 @@ def _named_in_series(series: Series) -> Iterator[tuple[str, Verifier]]:
     for profile in series.criteria:
         for criterion in profile.criteria:
             verified = (
-                (series.id,) if series.file.expect.outcome == "pass" and _judges(series, criterion) else ()
+                (series.id,)
+                if series.file.expect.outcome == "pass" and _has_verdict_on(series, criterion)
+                else ()
             )
             for requirement in criterion.requirements:
                 yield requirement, Verifier("criterion", criterion.id, profile.name, series=verified)
 
 
-def _judges(series: Series, criterion: scenario.Criterion) -> bool:
+def _has_verdict_on(series: Series, criterion: scenario.Criterion) -> bool:
     """Return whether a series has a verdict on a criterion that applies to one of its stops at least."""
     if criterion.id not in {each.id for _, each in series.judged_criteria}:
         return False
@@ -100,7 +104,7 @@ def _judges(series: Series, criterion: scenario.Criterion) -> bool:
     return any(scenario.applies_to(criterion, case.scenario) for case in judged)
 
 
-def _merged(named: Iterable[Verifier]) -> tuple[Verifier, ...]:
+def _merged_verifiers(named: Iterable[Verifier]) -> tuple[Verifier, ...]:
     """Return one verifier for each kind, name and profile, with the places of all that have these."""
     groups: dict[tuple[VerifierKind, str, str], list[Verifier]] = {}
     for each in named:

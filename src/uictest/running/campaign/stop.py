@@ -69,7 +69,7 @@ class Stop(NamedTuple):
 
     @property
     def is_repeated(self) -> bool:
-        """Whether its case has other stops beside it."""
+        """Whether its case has further stops."""
         return self.case.scenario.repeat > 1
 
     @property
@@ -119,7 +119,7 @@ def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = 
     def simulated(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
         return [rig.simulate(case, every, run) for case in cases]
 
-    return _run([stop], request, simulated)[0]
+    return _run_at_once([stop], request, simulated)[0]
 
 
 def run_train(
@@ -130,7 +130,7 @@ def run_train(
     def simulated(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
         return rig.simulate_cars(cases, every, run)
 
-    return _run(stops, request, simulated)
+    return _run_at_once(stops, request, simulated)
 
 
 def run_trains(
@@ -161,37 +161,37 @@ def _run_in_lanes(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -
         def simulate(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
             return simulated_cars if every is None else rig.simulate_cars(cases, every)
 
-        return _run(stops, request, simulate, seconds)
+        return _run_at_once(stops, request, simulate, seconds)
 
     return list(map(judged, trains, simulated))
 
 
-def _run(
+def _run_at_once(
     stops: Sequence[Stop],
     request: RecordingRequest,
     simulate: Callable[[Sequence[scenario.Case], float | None], list[rig.SimulatedStop]],
     spent: float = 0.0,
 ) -> list[StopRun]:
-    """Return what stops that run at once come to; `spent` are seconds that they took before."""
+    """Return the runs of stops that are simulated at once; `spent`: seconds that they have taken before."""
     started = perf_counter() - spent
     cases = [stop.alone for stop in stops]
     try:
         cases = [bench.identified(case) for case in cases]
         simulated = simulate(cases, interval_at_once(stops[0], request))
         seconds = (perf_counter() - started) / len(stops)
-        results = [_judged(*of_car, seconds) for of_car in zip(stops, cases, simulated, strict=True)]
+        results = [_judged_result(*of_car, seconds) for of_car in zip(stops, cases, simulated, strict=True)]
         results = with_rails(cases, results)
         # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
         if not stops[0].is_repeated and simulated[0].recording is None and any(map(request.wants, results)):
             simulated = simulate(cases, request.every)
-        return [_finished(*of_car, request) for of_car in zip(stops, results, simulated, strict=True)]
+        return [_finished_run(*of_car, request) for of_car in zip(stops, results, simulated, strict=True)]
     except Exception as error:
         seconds = (perf_counter() - started) / len(stops)
-        failed = [_failed(case, error, seconds) for case in cases]
+        failed = [_failed_run(case, error, seconds) for case in cases]
         return [StopRun(stop, case_run) for stop, case_run in zip(stops, failed, strict=True)]
 
 
-def _judged(
+def _judged_result(
     stop: Stop, case: scenario.Case, simulated: rig.SimulatedStop, seconds: float
 ) -> evaluation.CaseResult:
     result = evaluation.evaluate_simulated(
@@ -219,7 +219,7 @@ def with_rails(
     asked = [evaluation.asks_for_rail(*each) for each in zip(cases, results, strict=True)]
     if not any(asked):
         return list(results)
-    bypassed = [case.changed(_bypassed) for case in cases]
+    bypassed = [case.changed(_with_wsp_bypassed) for case in cases]
     if cases[0].train is not None:
         stops = rig.simulate_cars(bypassed, None)
     else:
@@ -230,7 +230,7 @@ def with_rails(
     ]
 
 
-def _bypassed(resolved: scenario.Scenario) -> scenario.Scenario:
+def _with_wsp_bypassed(resolved: scenario.Scenario) -> scenario.Scenario:
     """Return a scenario with the WSP bypassed; no program from outside runs where it would not act."""
     bypassed = scenario.with_wsp_bypassed(resolved)
     if resolved.controller.program is None:
@@ -244,7 +244,7 @@ def _built_in() -> Part:
     return scenario.load_part(f"controllers/{DEFAULT}")
 
 
-def _finished(
+def _finished_run(
     stop: Stop, result: evaluation.CaseResult, simulated: rig.SimulatedStop, request: RecordingRequest
 ) -> StopRun:
     """Return a judged stop; the first of a repeated case has a recording, which says that it is the first."""
@@ -274,7 +274,7 @@ def interval_at_once(stop: Stop, request: RecordingRequest) -> float | None:
     return request.every if at_once and request.cases != "none" else None
 
 
-def _failed(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
+def _failed_run(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
     reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     of_controller = isinstance(error, ControllerError)
     result = evaluation.error_result(case, f"controller: {error}" if of_controller else reason, duration)
@@ -298,12 +298,14 @@ class CaseAssembly:
         """Yield the cases all of whose stops are there, each once."""
         for case_id, runs in list(self._runs.items()):
             if len(runs) == next(iter(runs.values())).stop.case.scenario.repeat:
-                case_run = self._with_log(self._together([runs[repeat] for repeat in sorted(runs)]))
+                case_run = self._with_log(
+                    self._case_run_of_repeats([runs[repeat] for repeat in sorted(runs)])
+                )
                 # Not before: an interrupt while the stops are judged does not lose them.
                 del self._runs[case_id]
                 yield case_run
 
-    def _together(self, runs: Sequence[StopRun]) -> CaseRun:
+    def _case_run_of_repeats(self, runs: Sequence[StopRun]) -> CaseRun:
         stop, first = runs[0].stop, runs[0].case_run
         if not stop.is_repeated:
             return first
@@ -332,12 +334,12 @@ Block = Sequence[Sequence[Stop]]
 
 
 def blocks_of(cases: Sequence[scenario.Case], request: RecordingRequest, jobs: int) -> Iterator[Block]:
-    """Yield what each of so many threads runs in one go, in order of cases and seeds."""
-    trains = sum(_fits(stops, request) for stops in stops_together(cases))
+    """Yield groups of stops that a thread runs in one go, in order of cases and seeds."""
+    trains = sum(_can_run_in_lane(stops, request) for stops in stops_together(cases))
     # As many for each thread: at the end of the longest all others wait.
     rounds = -(-trains // (_MOST_TOGETHER * jobs))
     size = -(-trains // (rounds * jobs)) if trains else 1
-    for fits, neighbours in groupby(stops_together(cases), lambda stops: _fits(stops, request)):
+    for fits, neighbours in groupby(stops_together(cases), lambda stops: _can_run_in_lane(stops, request)):
         together, step = list(neighbours), size if fits else 1
         yield from (together[first : first + step] for first in range(0, len(together), step))
 
@@ -360,7 +362,7 @@ def run_block(
     return [run_stop(stop, request, run) for stop in stops]
 
 
-def _fits(stops: Sequence[Stop], request: RecordingRequest) -> bool:
+def _can_run_in_lane(stops: Sequence[Stop], request: RecordingRequest) -> bool:
     """Return whether stops can run in a lane: of a train with built-in controllers, none of them recorded."""
     first = stops[0]
     is_in_train = first.case.train is not None and not first.case.is_from_outside

@@ -55,7 +55,7 @@ def run_on_cluster(
     called once. Raises ClusterError; ImportError without the extra `dask`.
     """
     with _connected(address) as client:
-        results = _results(client, selection, iter(numbers), on_wait)
+        results = _results_of_chunks(client, selection, iter(numbers), on_wait)
         for number, content in _with_cluster_errors(address, results):
             write_chunk(number, content)
 
@@ -64,7 +64,7 @@ def _with_cluster_errors(address: str, results: Iterator[tuple[int, bytes]]) -> 
     """Yield the results. Errors of the cluster become ClusterError, those of the caller do not."""
     try:
         yield from results
-    except _errors() as error:
+    except _cluster_errors() as error:
         summary = f"{type(error).__name__}: {error}".partition("\n")[0]
         raise ClusterError(f"{address}: {summary}") from error
 
@@ -89,7 +89,7 @@ def _connected(address: str) -> Any:
         raise ClusterError(f"{address}: {error}") from error
 
 
-def _errors() -> tuple[type[Exception], ...]:
+def _cluster_errors() -> tuple[type[Exception], ...]:
     from concurrent.futures import CancelledError
 
     from distributed import KilledWorker
@@ -98,7 +98,7 @@ def _errors() -> tuple[type[Exception], ...]:
     return KilledWorker, CancelledError, OSError, RuntimeError
 
 
-def _results(
+def _results_of_chunks(
     client: Any, selection: CaseSelection, numbers: Iterator[int], on_wait: Callable[[], None]
 ) -> Iterator[tuple[int, bytes]]:
     import distributed

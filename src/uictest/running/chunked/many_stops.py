@@ -50,12 +50,12 @@ class PlannedCase(NamedTuple):
 
 
 def no_such_key(error: KeyError) -> str:
-    """Return why a case cannot be simulated in which one value leaves no place for that of another key."""
+    """Return the reason why a case with a value for a key that another value removes cannot be simulated."""
     return f"{error.args[0]!r}: no such key beside the other values of this case"
 
 
 class _Simulated(NamedTuple):
-    """What became of one stop: its measures, or why there are none."""
+    """Result of one stop: its measures, or the reason why there are none."""
 
     measures: Any = None
     wheelset_measures: Sequence[Any] = ()
@@ -99,12 +99,12 @@ class ManyStops:
         return results, repeated
 
     def _results(self, planned: Sequence[PlannedCase]) -> list[CaseResult]:
-        assembled = [self._assembled(each) for each in planned]
-        stops = self._simulated([inputs for _, inputs, _ in assembled if inputs is not None])
+        assembled = [self._assembled_case(each) for each in planned]
+        stops = self._simulated_stops([inputs for _, inputs, _ in assembled if inputs is not None])
         simulated = iter(stops)
         cases = [case for case, _, _ in assembled]
         results = [
-            self._judged(case, _Simulated(problem=problem) if inputs is None else next(simulated))
+            self._judged_result(case, _Simulated(problem=problem) if inputs is None else next(simulated))
             for case, inputs, problem in assembled
         ]
         asking = [
@@ -113,13 +113,13 @@ class ManyStops:
             if case.scenario.test_validity == "rail" and asks_for_rail(case, result)
         ]
         bypassed = [_with_wsp_bypassed(inputs) for k in asking if (inputs := assembled[k][1]) is not None]
-        for k, stop in zip(asking, self._simulated(bypassed), strict=True):
+        for k, stop in zip(asking, self._simulated_stops(bypassed), strict=True):
             if not stop.problem:
                 results[k] = with_rail(results[k], cases[k], stop.measures, stop.wheelset_measures)
         return results
 
-    def _assembled(self, planned: PlannedCase) -> tuple[Case, rig.StopInputs | None, str]:
-        """Return a case as it is judged, and what the rig is given for it, or why there is nothing."""
+    def _assembled_case(self, planned: PlannedCase) -> tuple[Case, rig.StopInputs | None, str]:
+        """Return a case as it is judged, and the inputs of the rig, or None and the reason for it."""
         case, problem = planned
         inputs = None
         if not problem:
@@ -148,7 +148,7 @@ class ManyStops:
         assert self.nominal is not None
         return int(rig.assemble(bench.identified(self.nominal)).parameters["noise_key"])
 
-    def _simulated(self, stops: Sequence[rig.StopInputs]) -> list[_Simulated]:
+    def _simulated_stops(self, stops: Sequence[rig.StopInputs]) -> list[_Simulated]:
         """Return the measures of stops; where the simulation of all fails, they are simulated one by one."""
         if not stops:
             return []
@@ -164,13 +164,13 @@ class ManyStops:
         except Exception as error:
             if len(stops) == 1:
                 return [_Simulated(problem=f"{type(error).__name__}: {error}")]
-            return [simulated for stop in stops for simulated in self._simulated([stop])]
+            return [simulated for stop in stops for simulated in self._simulated_stops([stop])]
         return [
             _Simulated(_Measures(*stop), [_WheelsetMeasures(*each) for each in own], failure)
             for stop, own, failure in zip(measures.tolist(), of_wheelsets.tolist(), failures, strict=True)
         ]
 
-    def _judged(self, case: Case, stop: _Simulated) -> CaseResult:
+    def _judged_result(self, case: Case, stop: _Simulated) -> CaseResult:
         if stop.problem:
             return error_result(case, stop.problem)
         try:
@@ -224,7 +224,7 @@ class VariedCase:
         )
 
         def run(indices: NDArray[np.int64]) -> list[CaseResult]:
-            return stops.results([self._varied(settings, k) for k in indices.tolist()])[0]
+            return stops.results([self._varied_case(settings, k) for k in indices.tolist()])[0]
 
         count = len(next(iter(settings.values())))
         # As many for each thread: at the end of the longest all others wait.
@@ -238,7 +238,7 @@ class VariedCase:
                 advance(len(together))
         return results
 
-    def _varied(self, settings: Mapping[str, Column], k: int) -> PlannedCase:
+    def _varied_case(self, settings: Mapping[str, Column], k: int) -> PlannedCase:
         try:
             contents = {key: column[k].content for key, column in settings.items()}
             return PlannedCase(
@@ -295,9 +295,11 @@ class VariedTrain:
         return results
 
     def _run(self, settings: Sequence[Mapping[str, Column]], places: Sequence[int]) -> list[list[CaseResult]]:
-        trains = [self._scenarios(settings, place) for place in places]
+        trains = [self._scenarios_of_cars(settings, place) for place in places]
         problems = [train_problem(each, settings) for each in trains]
-        sound = [self._cars(each) for each, problem in zip(trains, problems, strict=True) if not problem]
+        sound = [
+            self._cars_as_cases(each) for each, problem in zip(trains, problems, strict=True) if not problem
+        ]
         try:
             stops = iter(rig.simulate_trains(sound, self.case, self.run_train))
         except Exception as error:  # which train it is shows when they run one by one
@@ -307,7 +309,7 @@ class VariedTrain:
             problems = [f"{told}: {error}"]
         assert self.case.train is not None
         # Judged as the train itself: numbers of parts are read for the words of a reason alone.
-        cars = self._cars(self.case.train.scenarios)
+        cars = self._cars_as_cases(self.case.train.scenarios)
         return [
             [error_result(car, problem) for car in cars]
             if problem
@@ -318,7 +320,9 @@ class VariedTrain:
             for problem in problems
         ]
 
-    def _scenarios(self, settings: Sequence[Mapping[str, Column]], place: int) -> tuple[Scenario, ...]:
+    def _scenarios_of_cars(
+        self, settings: Sequence[Mapping[str, Column]], place: int
+    ) -> tuple[Scenario, ...]:
         assert self.case.train is not None
         changed: dict[int, Scenario] = {}  # equal cars share theirs
         for car, own in zip(self.case.train.scenarios, settings, strict=True):
@@ -328,7 +332,7 @@ class VariedTrain:
                 )
         return tuple(changed[id(car)] for car in self.case.train.scenarios)
 
-    def _cars(self, scenarios: tuple[Scenario, ...]) -> list[Case]:
+    def _cars_as_cases(self, scenarios: tuple[Scenario, ...]) -> list[Case]:
         assert self.case.train is not None
         return [
             replace(

@@ -78,7 +78,7 @@ def manifest_differences(
         yield envelope.head_of(old)
         return
     for name in dict.fromkeys((*one, *other)):
-        first, second = _decisive(one, name), _decisive(other, name)
+        first, second = _entry_results_depend_on(one, name), _entry_results_depend_on(other, name)
         if first == second or name == "file":
             continue
         if isinstance(first, Mapping) and isinstance(second, Mapping):
@@ -88,10 +88,10 @@ def manifest_differences(
             yield _DIGESTS[name]
         else:
             label = _LABELS.get(name, name.replace("_", " "))
-            yield f"{label}: {_words(first)} {whose[0]}, {_words(second)} {whose[1]}"
+            yield f"{label}: {_list_in_words(first)} {whose[0]}, {_list_in_words(second)} {whose[1]}"
 
 
-def _decisive(manifest: Mapping[str, Any], name: str) -> Any:
+def _entry_results_depend_on(manifest: Mapping[str, Any], name: str) -> Any:
     """Return an entry as far as results depend on it: of the inputs all but the sweep file."""
     entry = manifest.get(name)
     if name != "inputs" or not isinstance(entry, Mapping):
@@ -99,7 +99,7 @@ def _decisive(manifest: Mapping[str, Any], name: str) -> Any:
     return {key: digest for key, digest in entry.items() if key != Path(str(manifest.get("file"))).name}
 
 
-def _words(value: Any) -> str:
+def _list_in_words(value: Any) -> str:
     if value is None or value in ("", []):
         return "none"
     if not isinstance(value, list):

@@ -58,11 +58,11 @@ def wheelset_columns(name: str) -> tuple[str, ...]:
 
 def row_schema(plan: Plan) -> pa.Schema:
     """Return names and types of the columns, in order."""
-    return _schema(plan.keys, plan.numeric_keys, plan.survey)
+    return _table_schema(plan.keys, plan.numeric_keys, plan.survey)
 
 
 @cache
-def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) -> pa.Schema:
+def _table_schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) -> pa.Schema:
     import pyarrow as pa
 
     text, number = pa.string(), pa.float64()
@@ -104,7 +104,7 @@ def rows(
     columns["expect"] = [str(each.expect) for each in results]
     for name in (*_STATED, "met"):
         columns[name] = [getattr(each, name) for each in results]
-    names = (named_controller(each) for each in _controllers(plan, indices, settings))
+    names = (named_controller(each) for each in _controllers_of_rows(plan, indices, settings))
     columns |= zip(_CONTROLLER, zip(*((each.name, each.version) for each in names), strict=True), strict=True)
     margins = map(narrowest_margin, results)
     columns["narrowest_margin"], columns["narrowest_criterion"] = zip(*margins, strict=True)
@@ -146,7 +146,9 @@ def named_controller(controller: Any) -> SweptController:
     return SweptController(controller.label, controller.version or "", controller.kind)
 
 
-def _controllers(plan: Plan, indices: NDArray[np.int64], settings: Mapping[str, Column]) -> Iterator[Any]:
+def _controllers_of_rows(
+    plan: Plan, indices: NDArray[np.int64], settings: Mapping[str, Column]
+) -> Iterator[Any]:
     of_cars = list(controllers_of(plan))
     for k, index in enumerate(indices.tolist()):
         key, own = of_cars[index % len(of_cars)]
@@ -162,7 +164,7 @@ def surveyed_cases(table: pa.Table) -> set[int]:
 
 
 def repeated_cases(table: pa.Table) -> int:
-    """Return how many cases of a survey were simulated in regular steps in the end; else none."""
+    """Return the number of cases of a survey that were simulated again in regular steps; 0 for no survey."""
     if TIME_STEP_COLUMN not in table.column_names:
         return 0
     steps = table.column(TIME_STEP_COLUMN).to_numpy()

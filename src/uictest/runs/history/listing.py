@@ -44,7 +44,7 @@ class ListedRun:
     """A folder that uictest wrote.
 
     Args:
-        name: of the folder.
+        name: name of the folder.
         kind: what wrote it.
         started: when it started; of a sweep and of studies, when the result was written.
         subject: what was run, by name; empty where it is not known.
@@ -80,7 +80,7 @@ class ListedRun:
 
 
 class Unlisted(NamedTuple):
-    """A folder that is no finished run, and why."""
+    """A folder that is not a finished run, and why."""
 
     name: str
     reason: str
@@ -108,7 +108,7 @@ class UnreadableError(Exception):
 
 
 def list_runs(parent: Path) -> Listing:
-    """Return what stands in a folder of runs. Raises OSError where the folder itself cannot be read."""
+    """Return the listing of a folder of runs. Raises OSError where the folder itself cannot be read."""
 
     def changed(folder: Path) -> tuple[float, str]:
         try:
@@ -130,17 +130,17 @@ def list_runs(parent: Path) -> Listing:
 
 
 def read_folder(folder: Path) -> ListedRun | Unlisted:
-    """Return what a folder holds, or why it is no run. Raises nothing for what stands in the folder."""
+    """Return the run in a folder, or why it is not one. Raises nothing for what stands in the folder."""
     try:
         if folder.is_symlink():
             return Unlisted(folder.name, f"a link to {folder.readlink()}")
         if not os.path.lexists(folder / MANIFEST):
-            return _other(folder)
+            return _listed_other(folder)
         manifest = _json_object(folder / MANIFEST)
         if envelope.is_of(manifest, envelope.MANIFEST, "run"):
-            return _run(folder, manifest)
+            return _listed_run(folder, manifest)
         if envelope.is_of(manifest, envelope.MANIFEST, "sweep"):
-            return _sweep(folder, manifest)
+            return _listed_sweep(folder, manifest)
         raise _other_schema(MANIFEST, manifest)
     except UnreadableError as error:
         return Unlisted(folder.name, str(error))
@@ -157,15 +157,15 @@ def started_in(name: str) -> datetime | None:
         return None
 
 
-def _written(path: Path) -> datetime:
+def _time_written(path: Path) -> datetime:
     return datetime.fromtimestamp(path.stat().st_mtime, UTC)
 
 
-def _page(folder: Path) -> str:
+def _page_path(folder: Path) -> str:
     return f"{folder.name}/{_PAGE}" if (folder / _PAGE).is_file() else ""
 
 
-def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
+def _listed_run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
     try:
         manifest = report.read_manifest({"manifest": content})
     except ValueError as error:
@@ -173,13 +173,13 @@ def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
     results = folder / report.RESULTS
     if not os.path.lexists(results):
         raise UnreadableError(f"damaged: there is no {report.RESULTS}")
-    entry = _entry(folder, results.stat().st_size)
+    entry = _checked_entry(folder, results.stat().st_size)
     run = ListedRun(
         folder.name,
         OF_RECORDINGS.get(next(iter(manifest.command[1:2]), ""), "run"),
-        (started_in(entry.run) if entry else None) or started_in(folder.name) or _written(results),
+        (started_in(entry.run) if entry else None) or started_in(folder.name) or _time_written(results),
         inputs=manifest.inputs,
-        page=_page(folder),
+        page=_page_path(folder),
         order=results.stat().st_mtime_ns,
     )
     if entry is None:
@@ -198,7 +198,7 @@ def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
     )
 
 
-def _entry(folder: Path, results_bytes: int) -> RunEntry | None:
+def _checked_entry(folder: Path, results_bytes: int) -> RunEntry | None:
     """Return the entry of a run; a folder into which only its results were copied has none."""
     if not os.path.lexists(folder / ENTRY):
         return None
@@ -240,7 +240,7 @@ class _SweepHead(_PartOfResult):
     controllers: list[_SweptController]
 
 
-def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
+def _listed_sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
     results = folder / report.RESULTS
     if not os.path.lexists(results):
         raise UnreadableError("a sweep that is not finished: its command continues it")
@@ -262,7 +262,7 @@ def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
     return ListedRun(
         folder.name,
         "sweep",
-        _written(results),
+        _time_written(results),
         subject=head.name,
         controllers=", ".join(controllers),
         inputs=(
@@ -270,14 +270,14 @@ def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
             if isinstance(inputs, Mapping)
             else {}
         ),
-        page=_page(folder),
+        page=_page_path(folder),
         counts={word: count for word, count in head.outcomes.items() if count},
         not_met=head.cases - head.met,
         order=results.stat().st_mtime_ns,
     )
 
 
-def _other(folder: Path) -> ListedRun:
+def _listed_other(folder: Path) -> ListedRun:
     for name, (kind, is_own) in _OTHERS.items():
         path = folder / name
         if not os.path.lexists(path):
@@ -285,8 +285,8 @@ def _other(folder: Path) -> ListedRun:
         content = _json_object(path)
         if not is_own(content):
             raise _other_schema(name, content)
-        started = started_in(folder.name) or _written(path)
-        return ListedRun(folder.name, kind, started, page=_page(folder) or f"{folder.name}/{name}")
+        started = started_in(folder.name) or _time_written(path)
+        return ListedRun(folder.name, kind, started, page=_page_path(folder) or f"{folder.name}/{name}")
     raise UnreadableError(f"not of uictest: there is no {MANIFEST}")
 
 
@@ -362,7 +362,7 @@ class RunEntry(BaseModel):
 
 
 def write_entry(folder: Path, content: report.RunContent) -> None:
-    """Write the entry of a run beside its results.json. Raises OSError."""
+    """Write the entry of a run next to its results.json. Raises OSError."""
     entry = entry_of(content, (folder / report.RESULTS).stat().st_size)
     files.write(folder, ENTRY, entry.model_dump_json(by_alias=True) + "\n")
 
@@ -381,13 +381,13 @@ def entry_of(content: report.RunContent, results_bytes: int) -> RunEntry:
         baseline=encodable(content.baseline.folder if content.baseline else ""),
         subject=encodable(", ".join(names[:_NAMES_SHOWN]) + more),
         controllers=encodable(content.controllers),
-        counts=_counts(content.word(case) for case in content.results),
-        series=_counts(report.result_word(series) for series in content.series),
+        counts=_counts_by_word(content.word(case) for case in content.results),
+        series=_counts_by_word(report.result_word(series) for series in content.series),
         distances=(min(distances), max(distances)) if distances else None,
     )
 
 
-def _counts(words: Iterable[str]) -> dict[str, int]:
+def _counts_by_word(words: Iterable[str]) -> dict[str, int]:
     counted = Counter(words)
     return {word: counted[word] for word in report.CASE_WORDS if word in counted}
 

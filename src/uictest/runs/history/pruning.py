@@ -29,7 +29,7 @@ class _Reference:
     Args:
         by: who refers to it.
         path: as it was given: the folder that it is relative to is not known of earlier runs.
-        sha256: of the file there; empty where it is not known.
+        sha256: SHA-256 of the file there; empty where it is not known.
 
     """
 
@@ -66,7 +66,7 @@ def prune(
 
     Args:
         parent: folder of all runs.
-        kind: of the runs that count.
+        kind: kind of the runs that count.
         keep: number of runs that stay, at least 1.
         written: name of the folder just written, which counts as the newest.
         referred: paths that the command line names.
@@ -89,7 +89,7 @@ def prune(
     newest = next((run.order for run in listing.runs if run.name == written), 0)
     for run in beyond:
         folder = parent / run.name
-        reason = _why_kept(folder, run, references, newest) or _remove(folder)
+        reason = _why_kept(folder, run, references, newest) or _remove_run(folder)
         if reason and not folder.exists():  # another process removed it meanwhile
             continue
         if reason:
@@ -98,7 +98,7 @@ def prune(
 
 
 def _why_kept(folder: Path, run: ListedRun, references: Iterable[_Reference], newest: int) -> str:
-    """Return why a run stays; empty where it may go."""
+    """Return the reason for which a run stays; empty where it may go."""
     if not run.complete:
         return "it is incomplete"
     try:
@@ -129,7 +129,7 @@ def _of_run(run: ListedRun) -> list[_Reference]:
     return [*inputs, *([_Reference(run.name, Path(run.baseline))] if run.baseline else [])]
 
 
-def _remove(folder: Path) -> str:
+def _remove_run(folder: Path) -> str:
     """Remove a folder; return why that was not possible, empty if it was."""
     try:
         files.remove_run(folder.parent, folder.name)

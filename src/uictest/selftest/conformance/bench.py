@@ -65,7 +65,7 @@ _BEGINNING: Final = 50
 
 @dataclass(frozen=True, slots=True)
 class Situation:
-    """What the sensors show.
+    """Readings of the sensors.
 
     Attributes:
         inputs: one record of :data:`~uictest.controllers.INPUTS` for each cycle.
@@ -85,7 +85,7 @@ class Situation:
 @cache
 def good_rail(cycle_time: float) -> Situation:
     """A stop in which every wheelset rolls, and the standstill after it."""
-    time = _times(INITIAL_SPEED / DRY_DECELERATION + _STANDSTILL, cycle_time)
+    time = _cycle_times(INITIAL_SPEED / DRY_DECELERATION + _STANDSTILL, cycle_time)
     train = np.maximum(INITIAL_SPEED - DRY_DECELERATION * time, 0.0)
     return _situation(cycle_time, train, np.tile(train, (WHEELSETS, 1)))
 
@@ -93,8 +93,8 @@ def good_rail(cycle_time: float) -> Situation:
 @cache
 def one_slides(cycle_time: float, wheelset: int) -> Situation:
     """A wheelset slides, goes on sliding, and rolls again; the others roll."""
-    train, speeds = _braking(cycle_time, _SLIDING_UNTIL)
-    time = _times(_SLIDING_UNTIL, cycle_time)
+    train, speeds = _braking_speeds(cycle_time, _SLIDING_UNTIL)
+    time = _cycle_times(_SLIDING_UNTIL, cycle_time)
     deepest = train * (1.0 - DEEPEST_SLIDE)
     falling = train - (SLIDE_DECELERATION - WET_DECELERATION) * np.maximum(time - SLIDE_BEGINS, 0.0)
     sliding = np.maximum(falling, deepest)
@@ -117,7 +117,7 @@ def motor_slides(cycle_time: float, wheelset: int) -> Situation:
 @cache
 def locked(cycle_time: float, wheelsets: tuple[int, ...]) -> Situation:
     """Some wheelsets stand still, or their sensors show it, while the train brakes."""
-    train, speeds = _braking(cycle_time, _LOCKED_FOR)
+    train, speeds = _braking_speeds(cycle_time, _LOCKED_FOR)
     speeds[list(wheelsets)] = 0.0
     return _situation(cycle_time, train, speeds)
 
@@ -125,8 +125,8 @@ def locked(cycle_time: float, wheelsets: tuple[int, ...]) -> Situation:
 @cache
 def sensor_lost(cycle_time: float, wheelset: int) -> Situation:
     """One speed sensor reports a fault and reads zero while every wheelset rolls."""
-    train, speeds = _braking(cycle_time, _LOCKED_FOR)
-    lost = _times(_LOCKED_FOR, cycle_time) >= SENSOR_FAILS
+    train, speeds = _braking_speeds(cycle_time, _LOCKED_FOR)
+    lost = _cycle_times(_LOCKED_FOR, cycle_time) >= SENSOR_FAILS
     speeds[wheelset, lost] = 0.0
     situation = _situation(cycle_time, train, speeds)
     situation.inputs["speed_valid"][lost, wheelset] = 0
@@ -154,12 +154,12 @@ def anything(cycle_time: float, cycles: int = 3000) -> Situation:
     return situation
 
 
-def _times(duration: float, cycle_time: float) -> Array:
+def _cycle_times(duration: float, cycle_time: float) -> Array:
     return cycle_time * np.arange(round(duration / cycle_time), dtype=np.float64)
 
 
-def _braking(cycle_time: float, duration: float) -> tuple[Array, Array]:
-    train = np.maximum(INITIAL_SPEED - WET_DECELERATION * _times(duration, cycle_time), 0.0)
+def _braking_speeds(cycle_time: float, duration: float) -> tuple[Array, Array]:
+    train = np.maximum(INITIAL_SPEED - WET_DECELERATION * _cycle_times(duration, cycle_time), 0.0)
     return train, np.tile(train, (WHEELSETS, 1))
 
 
@@ -167,16 +167,16 @@ def _situation(cycle_time: float, train: Array, speeds: Array) -> Situation:
     inputs = np.zeros(len(train), INPUTS)
     inputs["cycle"] = np.arange(len(train))
     inputs["time"] = inputs["cycle"] * cycle_time
-    inputs["wheel_speed"] = _measured(speeds.T, cycle_time)
+    inputs["wheel_speed"] = _measured_speeds(speeds.T, cycle_time)
     inputs["speed_valid"] = 1
     inputs["cylinder_pressure"] = FULL_PRESSURE
     inputs["brake_demand"] = 1.0
     return Situation(inputs, train)
 
 
-def _measured(speeds: Array, cycle_time: float) -> Array:
+def _measured_speeds(speeds: Array, cycle_time: float) -> Array:
     """Return speeds as the standard sensors show them."""
-    sensor: Any = _part("sensors/standard").speed
+    sensor: Any = _library_part("sensors/standard").speed
     pitch = 2.0 * np.pi * wheel_radius() / float(sensor.teeth)
     noise = float(sensor.noise)
     settings = pitch, float(sensor.timer_resolution), cycle_time, float(sensor.minimum_speed)
@@ -200,11 +200,11 @@ def _draw(cycle: int, wheelset: int) -> float:
 @cache
 def wheel_radius() -> float:
     """Return the wheel radius of the library's default vehicle, m."""
-    return float(_part("vehicles/intercity-180").wheelset.radius)
+    return float(_library_part("vehicles/intercity-180").wheelset.radius)
 
 
 @cache
-def _part(reference: str) -> Any:
+def _library_part(reference: str) -> Any:
     return load_part(reference)
 
 
@@ -263,12 +263,14 @@ class PlainInstance(CalledInstance):
 
     def reset(self) -> None:
         """Begin a stop."""
-        self._train: Any = _blank(self._controller.train_memory)
-        self._wheelsets: list[Any] = [_blank(self._controller.wheelset_memory) for _ in range(WHEELSETS)]
+        self._train: Any = _blank_record(self._controller.train_memory)
+        self._wheelsets: list[Any] = [
+            _blank_record(self._controller.wheelset_memory) for _ in range(WHEELSETS)
+        ]
         self._controller.begin(self._train, self._wheelsets, self._initial_speed)
 
     def step(self, inputs: Inputs) -> Outputs:
-        """Decide as in a stop."""
+        """Return the controller's answer in one cycle: copies of its inputs go in, its commands come out."""
         self._train.axle_load, self._train.brake_command = inputs.axle_load, inputs.brake_command
         self._train.train_speed, self._train.acceleration = inputs.train_speed, inputs.acceleration
         self._train.train_speed_valid = int(inputs.train_speed_valid)
@@ -293,7 +295,7 @@ class PlainInstance(CalledInstance):
         return outputs
 
 
-def _blank(record: Any) -> Any:
+def _blank_record(record: Any) -> Any:
     return SimpleNamespace(**dict.fromkeys(fields_of(record), 0))
 
 
@@ -343,7 +345,7 @@ class Bench:
         self._driven: dict[str, Answers | ControllerError] = {}
         self.asked: dict[str, Answers] = {}
         self.traces: dict[str, None] = {}
-        """What its calls have left changed in their process so far, in words."""
+        """Changes that its calls have left in their process so far, in words."""
         self._workers = rig.Workers()
 
     def __enter__(self) -> Self:
@@ -356,34 +358,34 @@ class Bench:
 
     def good_rail(self) -> Answers:
         """Answers while every wheelset rolls. Raises ControllerError, as all of these."""
-        return self._once("good rail", good_rail)
+        return self._driven_once("good rail", good_rail)
 
     def one_slides(self, wheelset: int) -> Answers:
         """Answers while one wheelset slides, then rolls again."""
-        return self._once(f"wheelset {wheelset + 1} slides", one_slides, wheelset=wheelset)
+        return self._driven_once(f"wheelset {wheelset + 1} slides", one_slides, wheelset=wheelset)
 
     def motor_slides(self, wheelset: int) -> Answers:
         """Answers while one wheelset slides under a dynamic brake, then rolls again."""
         name = f"wheelset {wheelset + 1} slides under a dynamic brake"
-        return self._once(name, motor_slides, wheelset=wheelset)
+        return self._driven_once(name, motor_slides, wheelset=wheelset)
 
     def locked(self, *wheelsets: int) -> Answers:
         """Answers while some wheelsets stand still."""
         listed = ", ".join(str(wheelset + 1) for wheelset in wheelsets)
-        return self._once(f"wheelset {listed} locked", locked, wheelsets=wheelsets)
+        return self._driven_once(f"wheelset {listed} locked", locked, wheelsets=wheelsets)
 
     def sensor_lost(self, wheelset: int) -> Answers:
         """Answers while the speed sensor of one wheelset reports a fault."""
         name = f"speed sensor of wheelset {wheelset + 1} lost"
-        return self._once(name, sensor_lost, wheelset=wheelset)
+        return self._driven_once(name, sensor_lost, wheelset=wheelset)
 
     def anything(self) -> Answers:
         """Answers to random inputs: of a new controller, after a reset, and of a second one."""
-        return self._once("anything", anything, REPEATED)
+        return self._driven_once("anything", anything, REPEATED)
 
     def beside_another(self) -> Answers:
-        """Answers to random inputs: of a controller alone, and of one beside another."""
-        return self._once("beside another", anything, ("create", "beside"))
+        """Answers to random inputs: of a controller alone, and of one together with another."""
+        return self._driven_once("beside another", anything, ("create", "beside"))
 
     def every_situation(self) -> list[Answers]:
         """Answers in all situations."""
@@ -397,7 +399,7 @@ class Bench:
             self.anything(),
         ]
 
-    def _once(
+    def _driven_once(
         self,
         name: str,
         situation_at: Callable[..., Situation],

@@ -18,7 +18,7 @@ from uictest.selftest.findings import Examination, Finding, Status, finding_docu
 
 
 class Observation(NamedTuple):
-    """What was found: a number, None if there was nothing to find, and in words."""
+    """Result of a check: a number, None if there was nothing to measure, and a remark in words."""
 
     value: float | None
     words: str
@@ -65,7 +65,7 @@ def _legal_commands(bench: Bench) -> Observation:
 
 def _same_after_reset(bench: Bench) -> Observation:
     first, after_reset, second = bench.anything().drives
-    different = [_different(first.outputs, other.outputs) for other in (after_reset, second)]
+    different = [_cycles_that_differ(first.outputs, other.outputs) for other in (after_reset, second)]
     counts = [len(cycles) for cycles in different]
     words = f"after reset {counts[0]} cycles differ, with a second controller {counts[1]}"
     return Observation(sum(counts), words + _first_of(np.concatenate(different)))
@@ -77,7 +77,7 @@ def _same_beside_another(bench: Bench) -> Observation:
     alone, beside = bench.beside_another().drives
     if not len(beside.outputs):
         return Observation(None, "a process can have only one")
-    different = _different(alone.outputs, beside.outputs)
+    different = _cycles_that_differ(alone.outputs, beside.outputs)
     return Observation(len(different), f"answered in turn with a second controller{_first_of(different)}")
 
 
@@ -98,8 +98,8 @@ def _leaves_no_trace(bench: Bench) -> Observation:
     return Observation(len(bench.traces), left)
 
 
-def _different(one: Any, other: Any) -> Any:
-    """Return the cycles in which answers differ by a bit; C may leave anything between and behind fields."""
+def _cycles_that_differ(one: Any, other: Any) -> Any:
+    """Return the cycles in which answers differ by a bit; padding between and after fields is ignored."""
     names = [name for name in one.dtype.names if not name.startswith("padding")]
     differs = np.zeros(len(one), bool)
     for name in names:
@@ -122,7 +122,7 @@ def _vents_sliding(bench: Bench) -> Observation:
         answers = bench.one_slides(wheelset)
         vented = _while_it_slides(answers, answers.vent[:, wheelset] != 0)
         times.append(float(vented[0] - SLIDE_BEGINS) if len(vented) else np.inf)
-    return Observation(max(times), f"from the beginning of the slide; wheelsets 1 to 4: {_listed(times)}")
+    return Observation(max(times), f"from the beginning of the slide; wheelsets 1 to 4: {_times_text(times)}")
 
 
 def _while_it_slides(answers: Answers, active: Any) -> Any:
@@ -144,7 +144,7 @@ def _gives_back(bench: Bench) -> Observation:
     times = [
         _time_to_end(answer, n, (answer.hold != 0) | (answer.vent != 0)) for n, answer in enumerate(answers)
     ]
-    return Observation(max(times), f"until it is filled for good; wheelsets 1 to 4: {_listed(times)}")
+    return Observation(max(times), f"until it is filled for good; wheelsets 1 to 4: {_times_text(times)}")
 
 
 def _time_to_end(answers: Answers, wheelset: int, acting: Any) -> float:
@@ -162,19 +162,21 @@ def _time_to_end(answers: Answers, wheelset: int, acting: Any) -> float:
 def _not_vented_for_ever(bench: Bench) -> Observation:
     all_of_them = tuple(range(WHEELSETS))
     answers = [bench.locked(wheelset) for wheelset in all_of_them] + [bench.locked(*all_of_them)]
-    times = [_longest(answer.vent != 0) * bench.subject.config.cycle_time for answer in answers]
-    words = f"wheelsets 1 to 4 alone: {_listed(times[:-1])}, all together: {_listed(times[-1:])}"
+    times = [_longest_activity(answer.vent != 0) * bench.subject.config.cycle_time for answer in answers]
+    words = f"wheelsets 1 to 4 alone: {_times_text(times[:-1])}, all together: {_times_text(times[-1:])}"
     return Observation(max(times), words)
 
 
 def _survives_lost_sensor(bench: Bench) -> Observation:
     cycle_time = bench.subject.config.cycle_time
-    times = [_longest(bench.sensor_lost(wheelset).vent != 0) * cycle_time for wheelset in range(WHEELSETS)]
-    words = f"any vent while the sensor of wheelset 1 to 4 reports a fault and all roll: {_listed(times)}"
+    times = [
+        _longest_activity(bench.sensor_lost(wheelset).vent != 0) * cycle_time for wheelset in range(WHEELSETS)
+    ]
+    words = f"any vent while the sensor of wheelset 1 to 4 reports a fault and all roll: {_times_text(times)}"
     return Observation(max(times), words)
 
 
-def _longest(active: Any) -> int:
+def _longest_activity(active: Any) -> int:
     """Return the most cycles in a row in which a wheelset is active; shape of active (cycles, wheelsets)."""
     longest, run = 0, np.zeros(active.shape[1], int)
     for row in active:
@@ -209,7 +211,9 @@ def _motor_first(bench: Bench) -> Observation:
         vented = _while_it_slides(answers, answers.vent[:, wheelset] != 0)
         first = len(reduced) and (not len(vented) or reduced[0] < vented[0])
         times.append(float(reduced[0] - SLIDE_BEGINS) if first else np.inf)
-    words = f"until it is reduced, never where the valve vents by then; wheelsets 1 to 4: {_listed(times)}"
+    words = (
+        f"until it is reduced, never where the valve vents by then; wheelsets 1 to 4: {_times_text(times)}"
+    )
     return Observation(max(times), words)
 
 
@@ -226,10 +230,12 @@ def _spares_motors(bench: Bench) -> Observation:
 def _motor_back(bench: Bench) -> Observation:
     answers = map(bench.motor_slides, range(WHEELSETS))
     times = [_time_to_end(answer, n, answer.reduction > 0.0) for n, answer in enumerate(answers)]
-    return Observation(max(times), f"until nothing is taken off for good; wheelsets 1 to 4: {_listed(times)}")
+    return Observation(
+        max(times), f"until nothing is taken off for good; wheelsets 1 to 4: {_times_text(times)}"
+    )
 
 
-def _listed(times: list[float]) -> str:
+def _times_text(times: list[float]) -> str:
     return ", ".join("never" if np.isinf(time) else f"{time:.2f} s" for time in times)
 
 
@@ -256,7 +262,7 @@ CHECKS: Final = (
 
 
 class Examined(NamedTuple):
-    """What a check of a controller has found, and the situations of each check that is missed, by its id."""
+    """Findings of the checks of a controller, and the situations of each missed check, by its id."""
 
     examination: Examination
     missed: Mapping[str, Mapping[str, Answers]]
@@ -346,7 +352,7 @@ def examination_html(examination: Examination, missed: Mapping[str, Mapping[str,
 
 
 def recording_of(answers: Answers) -> Recording:
-    """Return what was shown to a controller and what it answered; magnets of 0 and 1 alone make a state."""
+    """Return the inputs and answers of a controller; only magnets of 0 or 1 have a valve state."""
     situation = answers.situation
     channels = {
         "time": situation.time,

@@ -120,7 +120,7 @@ class Cells:
         return TextColumn(numbers, np.array(texts.to_pylist(), dtype=np.str_))
 
     def refusal(self, text: str, location: str = "") -> str:
-        """Return that a cell is no number, and what to write in the channel map so that it is read."""
+        """Return the message for a cell that is not a number, with the remedy in the channel map."""
         stripped, sign = text.strip(), grouping_of(text)
         marks = json.dumps([*self._missing, stripped], ensure_ascii=False)
         remedy, otherwise = (
@@ -173,29 +173,29 @@ def seconds_of(texts: NDArray[Any], written: str) -> NDArray[np.float64]:
 
     stripped = pd.Series(np.char.strip(texts))
     filled = stripped != ""
-    stamps = _stamps(stripped, written or "ISO8601")
+    stamps = _time_stamps(stripped, written or "ISO8601")
     if (unread := filled & stamps.isna()).any():
         raise UnreadableError(
-            _advice(list(map(str, stripped[filled])), str(stripped[unread].iloc[0]), written)
+            _date_advice(list(map(str, stripped[filled])), str(stripped[unread].iloc[0]), written)
         )
     if not is_clock(written):
-        return _since(stamps, pd.Timestamp(0, tz="UTC"))
-    return over_midnight(_since(stamps, pd.Timestamp("1900-01-01", tz="UTC")))
+        return _seconds_since(stamps, pd.Timestamp(0, tz="UTC"))
+    return over_midnight(_seconds_since(stamps, pd.Timestamp("1900-01-01", tz="UTC")))
 
 
 def is_clock(written: str) -> bool:
-    """Return whether a way of writing has a time of the day and no date."""
+    """Return whether a format has a time of the day and no date."""
     return bool(written) and not any(directive in written for directive in _DAY_DIRECTIVES)
 
 
 def over_midnight(clock: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return times of the day, s, that go on where they begin anew at midnight."""
+    """Return times of the day, s, that continue past midnight instead of starting at zero."""
     passed = np.nan_to_num(np.diff(clock, prepend=clock[:1])) < -_HALF_A_DAY
     return clock + DAY * np.cumsum(passed)
 
 
-def _stamps(texts: Any, written: str) -> Any:
-    """Return time stamps; a fraction of a second may be left out where it is none."""
+def _time_stamps(texts: Any, written: str) -> Any:
+    """Return time stamps; a fraction of zero seconds may be left out of the text."""
     import pandas as pd
 
     stamps = pd.to_datetime(texts, format=written, errors="coerce", utc=True)
@@ -204,12 +204,12 @@ def _stamps(texts: Any, written: str) -> Any:
     return stamps
 
 
-def _since(stamps: Any, origin: Any) -> NDArray[np.float64]:
+def _seconds_since(stamps: Any, origin: Any) -> NDArray[np.float64]:
     return np.asarray((stamps - origin).dt.total_seconds(), dtype=np.float64)
 
 
 def are_dates(samples: NDArray[Any]) -> bool:
-    """Return whether samples are texts of dates as ISO 8601 writes them, by the first that is not empty."""
+    """Return whether the first text of samples that is not empty is a date of ISO 8601."""
     if samples.dtype.kind != "U":
         return False
     first = next((text for text in samples[:_SAMPLED].tolist() if text.strip()), "")
@@ -224,11 +224,15 @@ def written_as(texts: Sequence[str]) -> Iterator[str]:
     days = ("".join(pair) for pair in product((*_DAYS, *_SHORT_DAYS), (" ", "T", "_")))
     for way in map("".join, product((*days, ""), _CLOCKS)):
         # Most ways are ruled out by the first text.
-        if len(sampled) and _stamps(sampled[:1], way).notna().all() and _stamps(sampled, way).notna().all():
+        if (
+            len(sampled)
+            and _time_stamps(sampled[:1], way).notna().all()
+            and _time_stamps(sampled, way).notna().all()
+        ):
             yield way
 
 
-def _advice(texts: Sequence[str], wrong: str, written: str) -> str:
+def _date_advice(texts: Sequence[str], wrong: str, written: str) -> str:
     way = next(written_as(texts), "")
     if written and not way:
         return f"{wrong!r} is not written as csv: {{dates: {json.dumps(written)}}} says"

@@ -73,11 +73,11 @@ class TextTable:
 
     @property
     def cells(self) -> Cells:
-        """What reads its cells."""
+        """The reader of its cells."""
         return self.dialect.cells
 
     def location_of(self, name: str, text: str) -> str:
-        """Return where a text first stands in a channel, for a reader."""
+        """Return the location of the first occurrence of a text in a channel, for messages."""
         k = self.names.index(name)
         cells = ((number, "".join(row[k : k + 1])) for number, row in self.rows())
         line = next(number for number, cell in cells if cell.strip()[:LONGEST_TEXT] == text)
@@ -89,13 +89,13 @@ class TextTable:
         least = len(self.names) - (self.names[-1] == REMARK)
         for number, row in self.rows():
             if len(row) < least:
-                raise UnreadableError(f"line {number} has {len(row)} cells; {self._heading}")
+                raise UnreadableError(f"line {number} has {len(row)} cells; {self._width_text}")
             for k in columns:
                 if cells.is_text(row[k]):
                     raise UnreadableError(cells.refusal(row[k], f"line {number}, column {k + 1}"))
 
     @property
-    def _heading(self) -> str:
+    def _width_text(self) -> str:
         return f"line {self.layout.header_line} names {len(self.names)} channels"
 
     def rows(self) -> Iterator[tuple[int, list[str]]]:
@@ -111,7 +111,7 @@ class TextTable:
                 number = last_line + reader.line_num
                 if len(row) > channels and any(cell.strip() for cell in row[channels:]):
                     raise UnreadableError(
-                        f"line {number} has {len(row)} cells, {self._heading}:"
+                        f"line {number} has {len(row)} cells, {self._width_text}:"
                         " name every column, and write numbers with decimal commas in quotation marks"
                     )
                 if row:
@@ -147,8 +147,8 @@ class TextTable:
             raise UnreadableError(f"no line of samples follows the names in line {self.layout.header_line}")
         if widest < named:
             raise UnreadableError(
-                f"{self._heading}, but no line of samples has more than {widest} cells: correct it, so that"
-                " each name stands above its column"
+                f"{self._width_text}, but no line of samples has more than {widest} cells: correct it, so"
+                " that each name stands above its column"
             )
 
 
@@ -170,7 +170,7 @@ def opened(path: Path, dialect: Dialect) -> TextTable:
 
 
 def reject_open_quotation(number: int, line: str) -> None:
-    """Raise UnreadableError for a line whose quotation marks are no pairs."""
+    """Raise UnreadableError for a line with an unpaired quotation mark."""
     if '"' in line and line.count('"') % 2:
         raise UnreadableError(f"line {number} has a quotation mark that is not closed")
 
@@ -178,22 +178,22 @@ def reject_open_quotation(number: int, line: str) -> None:
 def read(path: Path, dialect: Dialect | None = None) -> Contents:
     """Read a table; lines that begin with `#` are comments, `# key: value` among them facts.
 
-    A cell that is no number makes its channel one of texts: a channel map says what they mean.
+    A cell that is not a number makes its channel one of texts, whose meaning a channel map states.
 
-    Raises UnreadableError where the file is no table of this dialect.
+    Raises UnreadableError where the file is not a table of this dialect.
     """
     dialect = dialect or Dialect()
     if dialect.by_itself:
-        return _read_by_itself(path, dialect)
+        return _read_by_detected_dialect(path, dialect)
     try:
         table = opened(path, dialect)
-        group = _group(table)
+        group = _group_of_table(table)
     except UnicodeError as error:
         raise UnreadableError(undecodable(path, encoding_of(path, dialect.encoding))) from error
     except csv.Error as error:
         raise UnreadableError(f"not a table: {error}") from error
     facts = facts_in(line.removeprefix(COMMENT) for line in table.heading if line.startswith(COMMENT))
-    return Contents((group,), {**facts, **_interval(table)}, dialect=dialect)
+    return Contents((group,), {**facts, **_stated_interval(table)}, dialect=dialect)
 
 
 def encoded(recording: Recording) -> bytes:
@@ -227,24 +227,24 @@ def names_and_units(
     heading: Sequence[str], layout: TableLayout, dialect: Dialect
 ) -> tuple[list[str], list[str]]:
     """Return names, made distinct, and their units: those in the names, else those of the line of units."""
-    named = names_and_units_of(_cells(heading, layout.header_line, dialect))
-    below = _cells(heading, layout.unit_line, dialect) if layout.unit_line else []
+    named = names_and_units_of(_cells_of_heading_line(heading, layout.header_line, dialect))
+    below = _cells_of_heading_line(heading, layout.unit_line, dialect) if layout.unit_line else []
     if not 0 < len(named) <= MOST_CHANNELS:
         raise UnreadableError(f"{len(named)} columns; expected 1 to {MOST_CHANNELS}")
     below += [""] * len(named)
     units = [unit or below[k].strip("[]() ") for k, (_, unit) in enumerate(named)]
-    return _distinct([name for name, _ in named]), units
+    return _numbered_duplicates([name for name, _ in named]), units
 
 
-def _cells(heading: Sequence[str], number: int, dialect: Dialect) -> list[str]:
+def _cells_of_heading_line(heading: Sequence[str], number: int, dialect: Dialect) -> list[str]:
     if number > len(heading):
         raise UnreadableError(f"the file has no line {number}")
     reject_open_quotation(number, heading[number - 1])
     return cells_of(heading[number - 1], dialect.delimiter)
 
 
-def _distinct(names: Sequence[str]) -> list[str]:
-    """Return names with a number behind each that is there more than once: none of them is *the* channel."""
+def _numbered_duplicates(names: Sequence[str]) -> list[str]:
+    """Return names, with a number after each that occurs more than once: none of them is *the* channel."""
     filled = [name or f"column {position}" for position, name in enumerate(names, start=1)]
     counts = Counter(filled)
     numbers: Counter[str] = Counter()
@@ -255,7 +255,7 @@ def _distinct(names: Sequence[str]) -> list[str]:
     return distinct
 
 
-def _group(table: TextTable) -> Group:
+def _group_of_table(table: TextTable) -> Group:
     """Return the samples of a table, read in blocks of rows."""
     lines: list[int] = []
     blocks: list[list[TextColumn]] = []
@@ -280,7 +280,7 @@ def _group(table: TextTable) -> Group:
     return group
 
 
-def _interval(table: TextTable) -> dict[str, str]:
+def _stated_interval(table: TextTable) -> dict[str, str]:
     """Return the sampling interval that LabVIEW states above a table, as a fact."""
     for line in table.heading[: table.layout.header_line]:
         name, number = [*cells_of(line, table.dialect.delimiter), "", ""][:2]
@@ -293,15 +293,15 @@ _MOST_MARKS: Final = 3
 """Different texts among the numbers of a channel that are taken for marks of missing samples; chosen."""
 
 
-def _read_by_itself(path: Path, stated: Dialect) -> Contents:
+def _read_by_detected_dialect(path: Path, stated: Dialect) -> Contents:
     """Read a table by the dialect that it shows, where `stated` does not read it.
 
     `Contents.dialect` says which, `guesses` why a setting of it is one. Raises UnreadableError where there is
     no table.
     """
-    dialect, guesses = _of_heading(path, replace(stated, by_itself=False))
+    dialect, guesses = _dialect_of_heading(path, replace(stated, by_itself=False))
     contents, refined = read(path, dialect), dialect
-    while (more := _of_cells(contents.groups[0], refined)) != refined:
+    while (more := _dialect_refined_by_cells(contents.groups[0], refined)) != refined:
         contents, refined = read(path, more), more
     for setting, reason in (("thousands", "groups of three digits"), ("missing", "texts among numbers")):
         if getattr(refined, setting) != getattr(dialect, setting):
@@ -309,15 +309,15 @@ def _read_by_itself(path: Path, stated: Dialect) -> Contents:
     return replace(contents, guesses=guesses)
 
 
-def _of_heading(path: Path, stated: Dialect) -> tuple[Dialect, dict[str, str]]:
-    """Return the dialect that the first lines of a file show, and what of it is a guess."""
+def _dialect_of_heading(path: Path, stated: Dialect) -> tuple[Dialect, dict[str, str]]:
+    """Return the dialect that the first lines of a file show, and its guesses: setting -> reason."""
     guesses: dict[str, str] = {}
     try:
         heading = heading_of(path, encoding_of(path, stated.encoding), stated)
     except UnicodeError as error:
         if stated.encoding == OF_WINDOWS:
             raise UnreadableError(undecodable(path, OF_WINDOWS)) from error
-        dialect, guesses = _of_heading(path, replace(stated, encoding=OF_WINDOWS))
+        dialect, guesses = _dialect_of_heading(path, replace(stated, encoding=OF_WINDOWS))
         return dialect, {**guesses, "encoding": f"it is not {stated.encoding}"}
     layout, likely = likely_layout(heading, stated)
     if layout.alike:
@@ -343,14 +343,14 @@ def _may_group_digits(columns: Sequence[Set[str]], sign: str) -> bool:
 
 
 def _groups_digits(columns: Sequence[Set[str]], sign: str) -> bool:
-    """Return whether a column has numbers with the sign beside smaller ones without it."""
+    """Return whether a column has numbers with the sign, and smaller ones without it."""
     return any(
         any(sign in cell for cell in column) and any(cell.isdigit() and len(cell) <= 3 for cell in column)
         for column in columns
     )
 
 
-def _of_cells(group: Group, dialect: Dialect) -> Dialect:
+def _dialect_refined_by_cells(group: Group, dialect: Dialect) -> Dialect:
     """Return a dialect with the decimal comma, groups of digits or marks that texts among numbers show."""
     texts_among_numbers = [text for name in group.numbers for text in group.first_texts.get(name, {})]
     comma = Cells(",")

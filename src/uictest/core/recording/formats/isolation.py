@@ -53,7 +53,7 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
     """Read a file of any known format. `dialect` says how a text file writes its table.
 
     Raises:
-        UnreadableError: the file is no recording, damaged, or too large; the message says which.
+        UnreadableError: the file is not a recording, damaged, or too large; the message says which.
         MissingExtraError: the library for its format is not installed.
         ReadingInterruptedError: the temporary folder is full, or the process that reads was killed.
         OSError: the file cannot be opened.
@@ -82,7 +82,7 @@ def read_apart(
     process: Any
     with files.temporary_folder() as folder, reading_process(_MODULE, arguments, folder) as process:
         while _line_of(process, name, seconds) == PIECE_READY:
-            contents = _collect(folder)
+            contents = _read_contents(folder)
             with contextlib.suppress(BrokenPipeError):
                 os.write(process.stdin.fileno(), b"\n")
             yield contents
@@ -131,14 +131,14 @@ def _reason_in(folder: Path) -> str:
     return path.read_text(encoding="utf-8") if path.exists() else ""
 
 
-def _collect(folder: Path) -> Contents:
+def _read_contents(folder: Path) -> Contents:
     form = json.loads((folder / "contents.json").read_text(encoding="utf-8"))
     dialect = None if form["dialect"] is None else Dialect.of(form["dialect"])
-    groups = tuple(_group(of_group, folder) for of_group in form["groups"])
+    groups = tuple(_read_group(of_group, folder) for of_group in form["groups"])
     return Contents(groups, form["metadata"], form["skipped"], dialect, form["guesses"])
 
 
-def _group(form: Mapping[str, Any], folder: Path) -> Group:
+def _read_group(form: Mapping[str, Any], folder: Path) -> Group:
     def array(number: int) -> Any:
         return np.load(folder / f"{number}.npy", allow_pickle=False)
 
@@ -173,7 +173,7 @@ def main(name: str, path: str, request: str) -> int:
 
 
 def pieces_of(name: str, path: Path, request: Mapping[str, Any]) -> Iterator[Contents]:
-    """Yield what is asked for: all of a file, or its pieces."""
+    """Yield the whole file or its pieces, as the request says."""
     if "dialect" in request:
         yield read_here(name, path, Dialect.of(request["dialect"]))
     else:
@@ -181,9 +181,9 @@ def pieces_of(name: str, path: Path, request: Mapping[str, Any]) -> Iterator[Con
 
 
 def leave(folder: Path, name: str, pieces: Iterator[Contents], handed_over: Callable[[], bool]) -> int:
-    """Write pieces into a folder, or why there are none; return the exit code.
+    """Write pieces into a folder, or the reason for a refusal; return the exit code.
 
-    `handed_over` says that one lies there, and returns whether the next one is wanted.
+    `handed_over` reports that a piece is ready, and returns whether the next one is wanted.
     """
     try:
         for contents in pieces:
@@ -194,16 +194,18 @@ def leave(folder: Path, name: str, pieces: Iterator[Contents], handed_over: Call
             if not handed_over():
                 break
     except MissingExtraError as error:
-        return _reject(folder, str(error), EXTRA_MISSING)
+        return _write_refusal(folder, str(error), EXTRA_MISSING)
     except UnreadableError as error:
-        return _reject(folder, str(error))
+        return _write_refusal(folder, str(error))
     except MemoryError:
-        return _reject(folder, "reading it needs more memory than is allowed")
+        return _write_refusal(folder, "reading it needs more memory than is allowed")
     # A library that meets a damaged file may raise anything at all.
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _NO_ROOM:
             return NO_ROOM
-        return _reject(folder, f"damaged, or nothing that can be read as {name} ({type(error).__name__})")
+        return _write_refusal(
+            folder, f"damaged, or nothing that can be read as {name} ({type(error).__name__})"
+        )
     return 0
 
 
@@ -224,7 +226,7 @@ def write_contents(contents: Contents, folder: Path) -> None:
     """Write contents into a folder; names from the file never become names of files."""
     numbers = itertools.count()
     contents_form = {
-        "groups": [_group_form(group, folder, numbers) for group in contents.groups],
+        "groups": [_write_group(group, folder, numbers) for group in contents.groups],
         "metadata": contents.metadata,
         "skipped": contents.skipped,
         "guesses": contents.guesses,
@@ -233,7 +235,7 @@ def write_contents(contents: Contents, folder: Path) -> None:
     (folder / "contents.json").write_text(json.dumps(contents_form), encoding="utf-8")
 
 
-def _group_form(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
+def _write_group(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str, Any]:
     def array_number(samples: Any) -> int:
         number, content = next(numbers), io.BytesIO()
         np.save(content, np.ascontiguousarray(samples), allow_pickle=False)
@@ -252,7 +254,7 @@ def _group_form(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str,
     }
 
 
-def _reject(folder: Path, reason: str, code: int = REJECTED) -> int:
+def _write_refusal(folder: Path, reason: str, code: int = REJECTED) -> int:
     text = " ".join(reason.split())[:_LONGEST_REASON]
     try:
         (folder / "refusal.txt").write_text(text, encoding="utf-8", errors="backslashreplace")

@@ -61,7 +61,7 @@ class Dialect:
 
     @property
     def cells(self) -> Cells:
-        """What reads the cells of such a file."""
+        """The reader of the cells of such a file."""
         return Cells(self.decimal, self.thousands, self.missing)
 
     def settings(self, other: Dialect) -> dict[str, Any]:
@@ -97,25 +97,25 @@ class TableLayout:
 
 
 def table_layout(heading: Sequence[str], dialect: Dialect) -> TableLayout:
-    """Return where the table stands whose first lines are `heading`.
+    """Return the layout of the table whose first lines are `heading`.
 
     Raises UnreadableError where it is not of the declared dialect; the message says what to declare.
     """
     layout, likely = likely_layout(heading, dialect)
     if likely != dialect:
-        raise UnreadableError(_advice(dialect, likely))
+        raise UnreadableError(_dialect_advice(dialect, likely))
     return layout
 
 
 def likely_layout(heading: Sequence[str], dialect: Dialect) -> tuple[TableLayout, Dialect]:
-    """Return where the table stands by a dialect, and the dialect that makes it one of samples.
+    """Return the layout of a table by a dialect, and the dialect by which it is a table of samples.
 
     Raises UnreadableError for a file without a table.
     """
     for number, line in enumerate(heading, start=1):
         if (cells := 1 + max(map(line.count, _SEPARATORS))) > MOST_CHANNELS:
             raise UnreadableError(f"line {number} has {cells} cells; at most {MOST_CHANNELS} are read")
-    lines = dict(_content(heading, dialect))
+    lines = dict(_numbered_content_lines(heading, dialect))
     if not lines:
         raise UnreadableError("the file holds no table: every line is blank or a comment")
     row, likely = _sample_row(lines, dialect)
@@ -132,16 +132,16 @@ def likely_layout(heading: Sequence[str], dialect: Dialect) -> tuple[TableLayout
     return TableLayout(names, units, first, () if dialect.header_line else tuple(alike)), likely
 
 
-def _content(heading: Sequence[str], dialect: Dialect) -> Iterator[tuple[int, str]]:
+def _numbered_content_lines(heading: Sequence[str], dialect: Dialect) -> Iterator[tuple[int, str]]:
     separator = "" if dialect.thousands == dialect.delimiter else dialect.thousands
-    begin = _begin(heading)
+    begin = _labview_header_length(heading)
     for number, line in enumerate(heading[begin:], start=begin + 1):
         if line.strip() and not line.startswith(COMMENT):
             yield number, line.replace(separator, "") if separator else line
 
 
-def _begin(heading: Sequence[str]) -> int:
-    """Return how many lines the headers of LabVIEW take, that of the file and that of its first segment."""
+def _labview_header_length(heading: Sequence[str]) -> int:
+    """Return the number of lines of LabVIEW's headers, of the file and of its first segment."""
     ends = [number for number, line in enumerate(heading, start=1) if line.startswith(END_OF_HEADER)]
     for end in ends:
         if not next((line for line in heading[end:] if line.strip()), "").startswith(_SEGMENT):
@@ -158,22 +158,22 @@ def _sample_row(lines: Mapping[int, str], dialect: Dialect) -> tuple[list[str], 
     """Return a row of samples, and the dialect that makes most of its cells numbers."""
     separators = dict.fromkeys((dialect.delimiter, *_SEPARATORS))
     last = list(lines.values())[-_LAST_ROWS:]
-    declared = max((cells_of(line, dialect.delimiter) for line in last), key=_likelihood)
-    if not any(map(dialect.cells.is_text, declared)) and _likelihood(declared)[0] == 1.0:
+    declared = max((cells_of(line, dialect.delimiter) for line in last), key=_rank_as_samples)
+    if not any(map(dialect.cells.is_text, declared)) and _rank_as_samples(declared)[0] == 1.0:
         return declared, dialect
     rows = [(cells_of(line, separator), separator) for separator in separators for line in last]
-    row, delimiter = max(rows, key=lambda pair: _likelihood(pair[0]))
+    row, delimiter = max(rows, key=lambda pair: _rank_as_samples(pair[0]))
     likely = replace(dialect, delimiter=delimiter)
-    return row, replace(likely, decimal=_decimal(row, likely))
+    return row, replace(likely, decimal=_decimal_of_row(row, likely))
 
 
-def _likelihood(row: Sequence[str]) -> tuple[float, int]:
+def _rank_as_samples(row: Sequence[str]) -> tuple[float, int]:
     filled = [cell for cell in row if cell]
     return sum(map(_is_number, filled)) / max(len(filled), 1), len(row)
 
 
-def _decimal(row: Sequence[str], dialect: Dialect) -> str:
-    """Return the sign before the decimals of a row; three behind it alone may be a group of digits."""
+def _decimal_of_row(row: Sequence[str], dialect: Dialect) -> str:
+    """Return the decimal sign of a row; with three digits after it in all cells it may group digits."""
     if dialect.delimiter == "," or dialect.thousands:
         return dialect.decimal
     signed = [(s, cell) for cell in row for s in ",." if s in cell and _BY_DECIMAL[s].is_number(cell)]
@@ -223,7 +223,7 @@ def _is_number(cell: str) -> bool:
     return cell.lower() == "nan" or any(cells.is_number(cell) for cells in _BY_DECIMAL.values())
 
 
-def _advice(declared: Dialect, likely: Dialect) -> str:
+def _dialect_advice(declared: Dialect, likely: Dialect) -> str:
     seems = []
     if (likely.delimiter, likely.decimal) != (declared.delimiter, declared.decimal):
         name = {"\t": "tabs"}.get(likely.delimiter, f"'{likely.delimiter}'")
@@ -242,7 +242,7 @@ def _advice(declared: Dialect, likely: Dialect) -> str:
 
 
 def names_and_units_of(headings: Sequence[str]) -> list[tuple[str, str]]:
-    """Return names and the units in brackets behind them; an empty unit where the brackets hold none.
+    """Return names and the units in brackets after them; an empty unit where the brackets hold none.
 
     Brackets that tell channels apart, as in `v[0]`, `v[1]`, are part of the names.
     """
@@ -267,7 +267,7 @@ def _name_and_brackets(heading: str) -> tuple[str, str]:
 
 
 def _is_unit(name: str, text: str) -> bool:
-    """Return whether the text in brackets behind a name is a unit; that of `v[1]` is an index."""
+    """Return whether the text in brackets after a name is a unit; that of `v[1]` is an index."""
     if text.strip() == "1":
         return name.endswith(" ")
     return (
@@ -293,7 +293,7 @@ def encoding_of(path: Path, stated: str) -> str:
 
 
 def undecodable(path: Path, encoding: str) -> str:
-    """Return where a file does not match its encoding, and what to write instead. Raises OSError."""
+    """Return the message for a file that does not match its encoding, with the remedy. Raises OSError."""
     content = path.read_bytes()
     try:
         content.decode(encoding)
@@ -303,17 +303,17 @@ def undecodable(path: Path, encoding: str) -> str:
         line = 1 + before.count("\n") + before.count("\r") - before.count("\r\n")
         in_line = before[start:].lstrip(BYTE_ORDER_MARK)
         byte = 1 + len(in_line.encode(encoding.removesuffix("-sig"), "replace"))
-        wrong = f"line {line}, byte {byte}: {content[error.start]:#04x} is not {_shown(encoding)}"
+        wrong = f"line {line}, byte {byte}: {content[error.start]:#04x} is not {_encoding_text(encoding)}"
         return f"{wrong}; {encoding_advice(encoding)} in a channel map (--map)"
-    return f"not a text in {_shown(encoding)}"
+    return f"not a text in {_encoding_text(encoding)}"
 
 
-def _shown(encoding: str) -> str:
+def _encoding_text(encoding: str) -> str:
     return encoding.removesuffix("-sig").upper()
 
 
 def encoding_advice(encoding: str) -> str:
-    """Return what to write where a file does not have an encoding."""
+    """Return the remedy for a file that does not match an encoding."""
     if encoding.startswith("utf"):
         return f"for a file of a Windows program, write csv: {{encoding: {OF_WINDOWS}}}"
     return "write the file's encoding in csv: {encoding: ...}"

@@ -71,13 +71,13 @@ def read(path: Path) -> Contents:
 
     version, _ = matfile_version(path)
     variables = _read_hdf5(path) if version == 2 else _read_by_scipy(path, version)
-    units, metadata = (_texts(variables.pop(name, None)) for name in (_UNITS, _METADATA))
+    units, metadata = (_texts_of_structure(variables.pop(name, None)) for name in (_UNITS, _METADATA))
     skipped: dict[str, str] = {}
-    channels = _of_to_file_block(variables) or [
+    channels = _channels_of_to_file_block(variables) or [
         channel for name, value in variables.items() for channel in _channels_of(name, value, skipped)
     ]
     check_size(channel.samples.shape for channel in channels)
-    return Contents(tuple(_groups(channels, units)), metadata, skipped)
+    return Contents(tuple(_groups_by_time(channels, units)), metadata, skipped)
 
 
 def encoded(recording: Recording) -> bytes:
@@ -144,7 +144,7 @@ def _from_hdf5(item: Any) -> Any:
     if "MATLAB_object_decode" in item.attrs or "MATLAB_sparse" in item.attrs:
         return _Unread("sparse matrix" if "MATLAB_sparse" in item.attrs else kind)
     if not hasattr(item, "dtype"):
-        columns = [[_from_hdf5(element) for element in _elements(field)] for field in item.values()]
+        columns = [[_from_hdf5(element) for element in _field_values(field)] for field in item.values()]
         return [dict(zip(item, record, strict=True)) for record in zip(*columns, strict=True)]
     if "MATLAB_empty" in item.attrs:
         return "" if kind == "char" else np.empty(0)
@@ -157,18 +157,18 @@ def _from_hdf5(item: Any) -> Any:
     return "\n".join(row.tobytes().decode("utf-16-le", "replace") for row in rows)
 
 
-def _elements(field: Any) -> list[Any]:
+def _field_values(field: Any) -> list[Any]:
     """Return the values of a field; those of a structure array are references without a class."""
     is_list = getattr(field, "dtype", None) == np.dtype("O") and "MATLAB_class" not in field.attrs
     return [field.file[reference] for reference in field[()].ravel()] if is_list else [field]
 
 
-def _of_to_file_block(variables: Mapping[str, Any]) -> list[_Channel]:
+def _channels_of_to_file_block(variables: Mapping[str, Any]) -> list[_Channel]:
     """Return the signals of Simulink's To File block: a file of one matrix, times in its first row."""
     name, matrix = next(iter(variables.items())) if len(variables) == 1 else ("", None)
     if not isinstance(matrix, np.ndarray) or matrix.ndim != 2 or not 1 < len(matrix) < matrix.shape[1]:
         return []
-    time, *others = _columns(name, matrix, time=matrix[0].astype(np.float64))
+    time, *others = _channels_of_array(name, matrix, time=matrix[0].astype(np.float64))
     return others if np.all(np.diff(time.samples) > 0.0) else []
 
 
@@ -176,15 +176,15 @@ def _channels_of(name: str, value: Any, skipped: dict[str, str], **stated: Any) 
     """Yield the channels of a value; the unit and the time that are `stated` are those of an array."""
     match value:
         case [{"signals": [{"values": _}, *_]} as log]:
-            yield from _of_simulink(name, log, skipped)
+            yield from _channels_of_simulink(name, log, skipped)
         case [{"X": [{"Data": _}, *_], "Y": [{"Data": _}, *_]} as capture]:
-            yield from _of_controldesk(name, capture, skipped)
+            yield from _channels_of_controldesk(name, capture, skipped)
         case list():
-            for expression, structure in _records(name, value):
+            for expression, structure in _named_structures(name, value):
                 for field, inner in structure.items():
                     yield from _channels_of(f"{expression}.{field}", inner, skipped)
         case np.ndarray() if value.size > 1:
-            yield from _columns(name, value, **stated)
+            yield from _channels_of_array(name, value, **stated)
         case _Unread():
             line = _EXPORTS.get(value.kind, "copy its numbers into arrays of a structure s;")
             line = line.format(x=name, field=re.sub(r"\W+", "_", name).strip("_"))
@@ -193,7 +193,9 @@ def _channels_of(name: str, value: Any, skipped: dict[str, str], **stated: Any) 
             skipped[name] = "is text" if isinstance(value, str) else "holds no series of numbers"
 
 
-def _columns(name: str, values: Any, unit: str = "", time: Samples | None = None) -> Iterator[_Channel]:
+def _channels_of_array(
+    name: str, values: Any, unit: str = "", time: Samples | None = None
+) -> Iterator[_Channel]:
     """Yield the channels of an array: each has the length of `time`, else that of the longest dimension."""
     shape = values.shape
     axis = shape.index(len(time)) if time is not None and len(time) in shape else int(np.argmax(shape))
@@ -204,55 +206,57 @@ def _columns(name: str, values: Any, unit: str = "", time: Samples | None = None
         yield _Channel(f"{name}[{k}]" if len(columns) > 1 else name, samples, unit, time)
 
 
-def _of_simulink(name: str, log: Mapping[str, Any], skipped: dict[str, str]) -> Iterator[_Channel]:
+def _channels_of_simulink(name: str, log: Mapping[str, Any], skipped: dict[str, str]) -> Iterator[_Channel]:
     """Yield the channels of a Structure or a Structure With Time."""
-    time = _vector(log.get("time"))
-    for expression, signal in _records(f"{name}.signals", log["signals"]):
-        block = _text(signal.get("blockName")).rpartition("/")[2]
-        label = _text(signal.get("label")) or block or f"{expression}.values"
+    time = _as_vector(log.get("time"))
+    for expression, signal in _named_structures(f"{name}.signals", log["signals"]):
+        block = _as_text(signal.get("blockName")).rpartition("/")[2]
+        label = _as_text(signal.get("label")) or block or f"{expression}.values"
         yield from _channels_of(label, signal["values"], skipped, time=time)
 
 
-def _of_controldesk(name: str, capture: Mapping[str, Any], skipped: dict[str, str]) -> Iterator[_Channel]:
+def _channels_of_controldesk(
+    name: str, capture: Mapping[str, Any], skipped: dict[str, str]
+) -> Iterator[_Channel]:
     """Yield the channels of an export of ControlDesk, each with the time that its `XIndex` counts."""
-    sizes = [recorded_unit_size(_text(axis.get("Unit")) or "s", "s") for axis in capture["X"]]
+    sizes = [recorded_unit_size(_as_text(axis.get("Unit")) or "s", "s") for axis in capture["X"]]
     axes = zip(capture["X"], sizes, strict=True)
-    times = [_vector(axis["Data"], size) if size else None for axis, size in axes]
-    for expression, signal in _records(f"{name}.Y", capture["Y"]):
+    times = [_as_vector(axis["Data"], size) if size else None for axis, size in axes]
+    for expression, signal in _named_structures(f"{name}.Y", capture["Y"]):
         axis = int(np.ravel(signal["XIndex"])[0]) - 1 if len(times) > 1 else 0
-        label, unit = _text(signal.get("Name")) or f"{expression}.Data", _text(signal.get("Unit"))
+        label, unit = _as_text(signal.get("Name")) or f"{expression}.Data", _as_text(signal.get("Unit"))
         yield from _channels_of(label, signal["Data"], skipped, unit=unit, time=times[axis])
 
 
-def _records(name: str, structures: list[dict[str, Any]]) -> Iterable[tuple[str, dict[str, Any]]]:
+def _named_structures(name: str, structures: list[dict[str, Any]]) -> Iterable[tuple[str, dict[str, Any]]]:
     """Return the structures of an array, each with its expression in MATLAB."""
     several = len(structures) > 1
     expressions = [f"{name}({k})" for k in range(1, len(structures) + 1)] if several else [name]
     return zip(expressions, structures, strict=False)
 
 
-def _groups(channels: Iterable[_Channel], units: Mapping[str, str]) -> Iterator[Group]:
+def _groups_by_time(channels: Iterable[_Channel], units: Mapping[str, str]) -> Iterator[Group]:
     """Yield groups of channels that have the same time, or none and the same length."""
     named: dict[str, _Channel] = {}
-    rasters: dict[tuple[int, int], list[str]] = {}
+    by_time: dict[tuple[int, int], list[str]] = {}
     for channel in channels:
         name = distinct(channel.name, named)
         named[name] = channel
-        rasters.setdefault((id(channel.time), len(channel.samples)), []).append(name)
-    for names in rasters.values():
+        by_time.setdefault((id(channel.time), len(channel.samples)), []).append(name)
+    for names in by_time.values():
         stated = {name: unit for name in names if (unit := units.get(name) or named[name].unit)}
         yield Group("", {name: named[name].samples for name in names}, stated, named[names[0]].time)
 
 
-def _vector(value: Any, size: float = 1.0) -> Samples | None:
+def _as_vector(value: Any, size: float = 1.0) -> Samples | None:
     is_vector = isinstance(value, np.ndarray) and 1 < value.size == max(value.shape)
     return value.ravel() * size if is_vector else None
 
 
-def _text(value: Any) -> str:
+def _as_text(value: Any) -> str:
     return value.strip() if isinstance(value, str) else ""
 
 
-def _texts(value: Any) -> dict[str, str]:
+def _texts_of_structure(value: Any) -> dict[str, str]:
     pairs = value[0].items() if isinstance(value, list) and value else ()
     return {name: text for name, text in pairs if isinstance(text, str)}

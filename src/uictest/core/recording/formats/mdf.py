@@ -49,27 +49,27 @@ def read(path: Path) -> Contents:
 
     Raises MissingExtraError without asammdf; for a damaged file whatever asammdf raises.
     """
-    with _opened(path, _ALL) as mdf:
+    with _open_mdf(path, _ALL) as mdf:
         counts = [(len(group.channels), int(group.channel_group.cycles_nr)) for group in mdf.groups]
         check_size(shape for channels, cycles in counts for shape in [(cycles,)] * channels)
         skipped: dict[str, str] = {}
         groups = tuple(group for k in range(len(mdf.groups)) for group in _blocks(mdf, k, None, skipped))
-        return Contents(groups, _facts(mdf), skipped)
+        return Contents(groups, _facts_of_header(mdf), skipped)
 
 
 def pieces(
     path: Path, wanted: Collection[str] | None, leading: Collection[str], at_once: int
 ) -> Iterator[Contents]:
     """Yield the file as :func:`in_step`; see `read_pieces`. `at_once`: bytes of the records of a group."""
-    with _opened(path, at_once) as mdf:
-        measured = [k for k, group in enumerate(mdf.groups) if not _raw_frames(group)]
+    with _open_mdf(path, at_once) as mdf:
+        measured = [k for k, group in enumerate(mdf.groups) if not _name_of_raw_frames(group)]
         if mdf.groups and not measured:
             raise UnreadableError(_RAW_FRAMES)
         yield from in_step([_blocks(mdf, k, wanted, {}) for k in measured], leading)
 
 
 @contextlib.contextmanager
-def _opened(path: Path, at_once: int) -> Iterator[Any]:
+def _open_mdf(path: Path, at_once: int) -> Iterator[Any]:
     """Lend an open file. asammdf maps one that it opens by its path, and all of it stays mapped."""
     asammdf = required_module("asammdf", _EXTRA)
     with path.open("rb") as file:
@@ -82,13 +82,13 @@ def _opened(path: Path, at_once: int) -> Iterator[Any]:
 def _blocks(
     mdf: Any, number: int, wanted: Collection[str] | None, skipped: dict[str, str]
 ) -> Iterator[Group]:
-    """Yield the wanted channels of a group block by block, and note why others are `skipped`.
+    """Yield the wanted channels of a group in blocks. `skipped` is an output: channel -> reason.
 
     Every record is read and decompressed once. asammdf's public `iter_get` reads all of a group for each of
     its channels, 7 times as slow for six channels; `select` reads from the beginning for each block.
     """
     group, master = mdf.groups[number], mdf.masters_db.get(number)
-    if frames := _raw_frames(group):
+    if frames := _name_of_raw_frames(group):
         skipped[frames] = _RAW_FRAMES
         return
     name = str(getattr(group.channel_group, "acq_name", "") or "")  # version 3 has none
@@ -118,14 +118,14 @@ def _blocks(
             yield block
 
 
-def _raw_frames(group: Any) -> str:
-    """Return the name of the frames where a group is a log of a bus, else nothing."""
+def _name_of_raw_frames(group: Any) -> str:
+    """Return the name of the frames if a group is a log of a bus, else an empty text."""
     names = (str(channel.name) for channel in group.channels)
     return next((name for name in names if _FRAMES.fullmatch(name)), "")
 
 
 def encoded(recording: Recording) -> bytes:
-    """Return a recording as MDF 4.10: one group for its one raster, names of states, facts in the header.
+    """Return a recording as MDF 4.10: one group, with names of states, and facts in the header.
 
     Raises MissingExtraError without asammdf.
     """
@@ -137,7 +137,7 @@ def encoded(recording: Recording) -> bytes:
             timestamps=time,
             name=name,
             unit=recording.units[name],
-            conversion=_names_of_states(name, np.asarray(samples)),
+            conversion=_state_conversion(name, np.asarray(samples)),
         )
         for name, samples in recording.channels.items()
         if name != TIME
@@ -161,8 +161,8 @@ def _valid_samples(signal: Any) -> Samples:
     return samples
 
 
-def _names_of_states(name: str, samples: Samples) -> dict[str, object] | None:
-    """Return what names the states of a channel; None where a sample has no name, which would be lost."""
+def _state_conversion(name: str, samples: Samples) -> dict[str, object] | None:
+    """Return the conversion of numbers to names of states; None where a sample has no name."""
     states = states_of(name)
     if not states or not np.isin(samples[~np.isnan(samples)], list(states.values())).all():
         return None
@@ -174,7 +174,7 @@ def _names_of_states(name: str, samples: Samples) -> dict[str, object] | None:
     }
 
 
-def _facts(mdf: Any) -> dict[str, str]:
+def _facts_of_header(mdf: Any) -> dict[str, str]:
     comment = str(mdf.header.comment or "")
     text = _COMMENT_TEXT.search(comment)
     return facts_in((unescape(text[1]) if text else comment).splitlines())

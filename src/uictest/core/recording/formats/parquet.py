@@ -36,7 +36,7 @@ def channels_bytes(
     metadata: Mapping[str, str],
     marks: Mapping[bytes, str] | None = None,
 ) -> bytes:
-    """Return channels of equal length as such a file, also those that are no recording: their clock may step.
+    """Return channels of equal length as such a file; unlike those of a recording, their clock may step.
 
     Args:
         channels: name -> samples.
@@ -70,7 +70,7 @@ def read_parquet(path: Path) -> Recording:
     metadata, it is the one in the schema metadata. Missing samples of a channel become NaN.
 
     Raises:
-        ValueError: the file is no Parquet file, or its channels are no recording.
+        ValueError: the file is not a Parquet file, or its channels are not a recording.
         OSError: the file cannot be read.
 
     """
@@ -79,17 +79,17 @@ def read_parquet(path: Path) -> Recording:
     try:
         # ParquetFile, not read_table: the latter takes a "friction=0.10" in a path for a partition key.
         with path.open("rb") as file, pq.ParquetFile(file) as parquet:
-            return _recording(parquet.read(use_threads=False))
+            return _recording_of_table(parquet.read(use_threads=False))
     except ValueError as error:
         raise ValueError(f"{path}: not a recording: {error}") from error
 
 
-def _recording(table: pa.Table) -> Recording:
+def _recording_of_table(table: pa.Table) -> Recording:
     schema_metadata = table.schema.metadata or {}
     channels = {name: table.column(name).to_numpy() for name in table.column_names}
     # What another program wrote as true and false are numbers, too.
     channels |= {name: samples.astype("f8") for name, samples in channels.items() if samples.dtype == bool}
-    units = _texts(schema_metadata.get(_UNITS, b"{}")) | _field_units(table.schema)
+    units = _texts(schema_metadata.get(_UNITS, b"{}")) | _units_of_fields(table.schema)
     metadata = _texts(schema_metadata.get(_METADATA, b"{}"))
     return Recording(channels, {name: units.get(name, "") for name in channels}, metadata)
 
@@ -118,7 +118,9 @@ def read(path: Path) -> Contents:
     skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in read}
     channels = {n: samples_of_column(table.column(column)) for n, column in columns.items() if column in read}
     stated = {name: unit for name, unit in units.items() if name in channels}
-    return Contents((Group("", channels, stated),), _object((schema.metadata or {}).get(_METADATA)), skipped)
+    return Contents(
+        (Group("", channels, stated),), _json_texts((schema.metadata or {}).get(_METADATA)), skipped
+    )
 
 
 encoded = parquet_bytes
@@ -127,7 +129,7 @@ encoded = parquet_bytes
 def columns_of(schema: pa.Schema) -> tuple[dict[str, str], dict[str, str]]:
     """Return the column of each channel by the channel's name, and the units of those that state one.
 
-    A unit in brackets behind a name is none of the name where the file states no other.
+    A unit in brackets after a name is taken as the unit where the file states no other.
 
     Raises UnreadableError for a name that several columns have.
     """
@@ -135,7 +137,7 @@ def columns_of(schema: pa.Schema) -> tuple[dict[str, str], dict[str, str]]:
         if count > 1:
             raise UnreadableError(f"{count} columns have the name {name!r}")
     times = {field.name: "s" for field in schema if holds_times(field.type)}
-    units = {**_object((schema.metadata or {}).get(_UNITS)), **_field_units(schema), **times}
+    units = {**_json_texts((schema.metadata or {}).get(_UNITS)), **_units_of_fields(schema), **times}
     split = dict(zip(schema.names, names_and_units_of(schema.names), strict=True))
     alike = Counter(name for name, _ in split.values())
     columns: dict[str, str] = {}
@@ -203,12 +205,12 @@ def seconds_of_moments(column: Any) -> Samples:
     return np.asarray((stamps - np.datetime64(0, "us")) / np.timedelta64(1, "us") * 1e-6, dtype=np.float64)
 
 
-def _field_units(schema: pa.Schema) -> dict[str, str]:
+def _units_of_fields(schema: pa.Schema) -> dict[str, str]:
     marked = ((field.name, (field.metadata or {}).get(_UNIT, b"")) for field in schema)
     return {name: unit.decode("utf-8", "replace") for name, unit in marked if unit}
 
 
-def _object(content: bytes | None) -> dict[str, str]:
+def _json_texts(content: bytes | None) -> dict[str, str]:
     try:
         texts = json.loads(content or b"{}")
     except (ValueError, RecursionError):

@@ -56,8 +56,8 @@ def read_pieces(
         request = {"wanted": asked, "leading": list(leading), "at_once": module_of(kind).AT_ONCE}
         yield from isolation.read_apart(kind, path, request)
     elif kind in ("csv", "parquet"):
-        opened = partial(_csv, texts=texts) if kind == "csv" else _parquet
-        yield from _tables(path, dialect, wanted, opened)
+        opened = partial(_open_csv, texts=texts) if kind == "csv" else _open_parquet
+        yield from _contents_of_batches(path, dialect, wanted, opened)
     else:
         raise UnreadableError(
             f"{kind} is not read in pieces; write it as Parquet: uictest export {path.name} --to parquet"
@@ -81,7 +81,7 @@ class Table(NamedTuple):
     source: csv_text.TextTable | None = None
 
 
-def _tables(
+def _contents_of_batches(
     path: Path, dialect: Dialect, wanted: Collection[str] | None, opened: Callable[..., Table]
 ) -> Iterator[Contents]:
     import pyarrow as pa
@@ -92,7 +92,7 @@ def _tables(
         for batch in table.batches:
             group = Group("", {}, dict(table.units), first_row=first_row)
             for k, name in enumerate(table.names):
-                _add(group, name, batch.column(k), table.source, locations[name])
+                _add_column(group, name, batch.column(k), table.source, locations[name])
             yield Contents((group,))
             first_row += batch.num_rows
     except UnicodeEncodeError as error:
@@ -109,7 +109,7 @@ def _tables(
         ) from error
 
 
-def _add(
+def _add_column(
     group: Group, name: str, column: Any, source: csv_text.TextTable | None, locations: dict[str, str]
 ) -> None:
     """Add the samples of a column to a group; dates are Unix time, s. `locations` are of earlier texts."""
@@ -126,7 +126,7 @@ def _add(
         group.channels[name] = parquet.samples_of_column(column)
 
 
-def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
+def _open_parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
     import pyarrow.parquet as pq
 
     file = pq.ParquetFile(path, pre_buffer=False)  # else all that is to be read stays in memory
@@ -137,7 +137,7 @@ def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Ta
     return Table(names, stated, batches)
 
 
-def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Collection[str]) -> Table:
+def _open_csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Collection[str]) -> Table:
     import pyarrow as pa
     from pyarrow import csv
 
@@ -153,12 +153,12 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Co
         names = names[:-1]
         chosen = [name for name in chosen if name != csv_text.REMARK]
     all_texts = bool(dialect.thousands)  # which Arrow does not read
-    texts = {name for name in chosen if all_texts or name in texts or _is_text(table, name, rows)}
+    texts = {name for name in chosen if all_texts or name in texts or _is_text_column(table, name, rows)}
     read = csv.ReadOptions(
         skip_rows=table.layout.first_line - 1, column_names=names, block_size=_BLOCK, encoding=table.encoding
     )
     parse = csv.ParseOptions(
-        delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, table.encoding)
+        delimiter=dialect.delimiter, invalid_row_handler=_handler_of_invalid_rows(path, table.encoding)
     )
     convert = csv.ConvertOptions(
         include_columns=chosen,
@@ -168,15 +168,15 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Co
     )
     numbers = [name for name in chosen if name not in texts]
     units = {name: unit for name, unit in zip(table.names, table.units, strict=True) if unit}
-    return Table(chosen, units, _batches(table, numbers, read, parse, convert), table)
+    return Table(chosen, units, _checked_batches(table, numbers, read, parse, convert), table)
 
 
-def _is_text(table: csv_text.TextTable, name: str, rows: Sequence[Sequence[str]]) -> bool:
+def _is_text_column(table: csv_text.TextTable, name: str, rows: Sequence[Sequence[str]]) -> bool:
     column = table.names.index(name)
     return any(table.cells.is_text(row[column]) for row in rows if column < len(row))
 
 
-def _batches(table: csv_text.TextTable, numbers: Sequence[str], *options: Any) -> Iterator[Any]:
+def _checked_batches(table: csv_text.TextTable, numbers: Sequence[str], *options: Any) -> Iterator[Any]:
     """Yield the batches of a table, in which the columns of `numbers` must be such throughout."""
     import pyarrow as pa
     from pyarrow import csv
@@ -188,8 +188,8 @@ def _batches(table: csv_text.TextTable, numbers: Sequence[str], *options: Any) -
         raise
 
 
-def _on_other_lines(path: Path, encoding: str) -> Callable[[Any], str]:
-    """Return what to do with a line of other cells: comments and an unfinished last line are skipped."""
+def _handler_of_invalid_rows(path: Path, encoding: str) -> Callable[[Any], str]:
+    """Return a handler that skips comments and an unfinished last line; another line is an error."""
     with path.open("rb") as file:
         file.seek(max(path.stat().st_size - csv_text.LONGEST_LINE, 0))
         last = file.read().decode(encoding, "replace").rpartition("\n")[2]
@@ -202,10 +202,10 @@ def is_wanted(channel: str, group: str, wanted: Collection[str] | None) -> bool:
 
 
 def in_step(streams: Sequence[Iterator[Group]], leading: Collection[str]) -> Iterator[Contents]:
-    """Yield the blocks of the group with a channel of `leading`, and what the other groups have meanwhile.
+    """Yield the blocks of the group with a channel of `leading`, and the samples of other groups meanwhile.
 
     The others begin and end some samples before and after the block where they have them. A block that lasts
-    longer than one of theirs is divided: beside a slow group a fast one would be held for hours.
+    longer than one of theirs is divided: else a fast group would be held in memory for hours of a slow one.
 
     Raises UnreadableError where several groups have no times, or times that go back.
     """
@@ -221,62 +221,64 @@ def in_step(streams: Sequence[Iterator[Group]], leading: Collection[str]) -> Ite
     followers = [_Follower(*other) for other in others]
     span = min((follower.lasts for follower in followers), default=math.inf)
     for block in itertools.chain((first,), stream):
-        for part in _parts(block, span):
-            yield Contents((part, *(follower.beside(part) for follower in followers)))
+        for part in _parts_within_span(block, span):
+            yield Contents((part, *(follower.during(part) for follower in followers)))
 
 
-def _parts(block: Group, span: float) -> Iterator[Group]:
+def _parts_within_span(block: Group, span: float) -> Iterator[Group]:
     """Yield the rows of a block that lie within `span` (s) of each other."""
     if math.isinf(span):
         yield block
         return
-    times = _rising(block)
+    times = _nondecreasing_times(block)
     begins = np.flatnonzero(np.diff((times - times[0]) // span)) + 1
     for rows in itertools.pairwise((0, *begins.tolist(), len(times))):
-        part = _changed(block, itemgetter(slice(*rows)))
+        part = _with_samples_mapped(block, itemgetter(slice(*rows)))
         yield replace(part, first_row=block.first_row + rows[0])
 
 
 class _Follower:
-    """A group of which the part beside each block of the leading group is taken, one after the other."""
+    """A group from which the part over the time of each block of the leading group is taken, in order."""
 
     def __init__(self, first: Group, following: Iterator[Group]) -> None:
         second = next(following, None)
         self._held, self._following = first, itertools.chain(() if second is None else (second,), following)
-        times = _rising(first)
+        times = _nondecreasing_times(first)
         duration = float(times[-1] - times[0])
         self.lasts = math.inf if second is None or not duration > 0.0 else duration
-        """How long a block is, s; infinite where there is only one."""
+        """Duration of a block, s; infinite where there is only one."""
 
-    def beside(self, part: Group) -> Group:
-        """Return the samples beside a part of the leading group, and a few around; parts come in order."""
-        begin, end = _rising(part)[[0, -1]]
-        while _rising(self._held)[-1] <= end and (block := next(self._following, None)) is not None:
-            self._held = _joined(self._held, block)
-        times = _rising(self._held)
+    def during(self, part: Group) -> Group:
+        """Return the samples during a part of the leading group, and a few around; parts come in order."""
+        begin, end = _nondecreasing_times(part)[[0, -1]]
+        while (
+            _nondecreasing_times(self._held)[-1] <= end and (block := next(self._following, None)) is not None
+        ):
+            self._held = _concatenated(self._held, block)
+        times = _nondecreasing_times(self._held)
         first = max(int(np.searchsorted(times, begin)) - _OVERLAP, 0)
         last = int(np.searchsorted(times, end, side="right")) + _OVERLAP
-        self._held = _changed(self._held, lambda samples: samples[first:])
-        return _changed(self._held, lambda samples: samples[: last - first])
+        self._held = _with_samples_mapped(self._held, lambda samples: samples[first:])
+        return _with_samples_mapped(self._held, lambda samples: samples[: last - first])
 
 
-def _changed(group: Group, change: Callable[[Any], Any]) -> Group:
+def _with_samples_mapped(group: Group, change: Callable[[Any], Any]) -> Group:
     channels = {name: change(samples) for name, samples in group.channels.items()}
     return replace(group, channels=channels, time=change(group.time))
 
 
-def _joined(one: Group, other: Group) -> Group:
+def _concatenated(one: Group, other: Group) -> Group:
     channels = {
         name: np.concatenate((one.channels[name], other.channels[name]))
         for name in one.channels
         if name in other.channels
     }
-    time = np.concatenate((_rising(one), _rising(other)))
+    time = np.concatenate((_nondecreasing_times(one), _nondecreasing_times(other)))
     return replace(one, channels=channels, time=time)
 
 
-def _rising(group: Group) -> Any:
-    """Return the times of a group beside others. Raises UnreadableError where they do not rise."""
+def _nondecreasing_times(group: Group) -> Any:
+    """Return the times of a group. Raises UnreadableError where it has none or they go back."""
     if group.time is None:
         raise UnreadableError(
             f"group {group.name!r} has no times of its own beside other groups: such a file is not read in"

@@ -93,14 +93,14 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
 def corrections(
     resolved: scenario.Scenario, criterion: scenario.Criterion | None = None
 ) -> dict[str, scenario.Quantity]:
-    """Return what distances and adhesions are corrected for: nominal speed and gradient.
+    """Return the nominal speed and gradient that distances and adhesions are corrected to.
 
     The nominal speed is the one that the criterion is for. Without one it is that of the first criterion of
     the scenario that is for stops from its initial speed, else this speed itself.
     """
     own = criterion.applies.initial_speed if criterion else None
     every = (each.applies.initial_speed for profile in resolved.criteria for each in profile.criteria)
-    fitting = (each.value for each in every if each is not None and _within(resolved.initial_speed, each))
+    fitting = (each.value for each in every if each is not None and _is_within(resolved.initial_speed, each))
     nominal = own.value if own else next(fitting, resolved.initial_speed)
     return {"nominal_speed": nominal, "gradient": resolved.rail.gradient}
 
@@ -108,9 +108,9 @@ def corrections(
 def observed_quantities(
     criterion: scenario.Criterion, profile: scenario.Criteria, resolved: scenario.Scenario
 ) -> Iterator[tuple[str, scenario.Quantity, str]]:
-    """Yield what the scenario gives the measure of a criterion of a profile, with its mark.
+    """Yield the quantities that the measure of a criterion depends on: name, value, mark of the source.
 
-    That is the definitions by which it was observed, and what it is corrected for.
+    These are the definitions of the observation, and the conditions that the measure is corrected to.
     """
     observation = resolved.measures
     for name in criterion.observed_by:
@@ -147,21 +147,25 @@ class UnmetCondition(NamedTuple):
 
     @property
     def no_such_test(self) -> str:
-        """That the stop is no such test: `no stop from 120 km/h (it is 124 km/h, tolerance 3 km/h)`."""
+        """Why the stop is not such a test: `no stop from 120 km/h (it is 124 km/h, tolerance 3 km/h)`."""
         which = f"no stop {_OF_TESTS[self.what]}"
         if not isinstance(self.accepted, scenario.Nominal):
             return f"{which} {' or '.join(self.accepted)} (it is {self.value})"
-        nominal, tolerance = self._text(self.accepted.value), self._text(self.accepted.tolerance)
-        return f"{which} {nominal} (it is {self._text(self.value)}, tolerance {tolerance})"
+        nominal, tolerance = (
+            self._number_in_words(self.accepted.value),
+            self._number_in_words(self.accepted.tolerance),
+        )
+        return f"{which} {nominal} (it is {self._number_in_words(self.value)}, tolerance {tolerance})"
 
     def __str__(self) -> str:
-        """Return what the stop has and what the criterion is for."""
+        """Return the value of the stop and the values that the criterion accepts, in words."""
         if not isinstance(self.accepted, scenario.Nominal):
             return f"{self.what} is {self.value}, the criterion is for {' or '.join(self.accepted)}"
-        nominal = f"{in_unit(self.accepted.value, self.unit):.4g} +- {self._text(self.accepted.tolerance)}"
-        return f"{self.what} is {self._text(self.value)}, the criterion is for {nominal}"
+        tolerance = self._number_in_words(self.accepted.tolerance)
+        nominal = f"{in_unit(self.accepted.value, self.unit):.4g} +- {tolerance}"
+        return f"{self.what} is {self._number_in_words(self.value)}, the criterion is for {nominal}"
 
-    def _text(self, number: str | float) -> str:
+    def _number_in_words(self, number: str | float) -> str:
         return value_text(in_unit(float(number), self.unit), self.unit)
 
 
@@ -192,7 +196,7 @@ def unmet_conditions(
         *(
             UnmetCondition(what, number, accepted, unit)
             for what, number, accepted, unit in numbers
-            if number is not None and accepted is not None and not _within(number, accepted)
+            if number is not None and accepted is not None and not _is_within(number, accepted)
         ),
     ]
     if conditions.rail_condition in (applies.rail_condition_other_than or ()):
@@ -212,6 +216,6 @@ def applies_to(criterion: scenario.Criterion, resolved: scenario.Scenario) -> bo
     return not unmet_conditions(criterion.applies, conditions, float(resolved.initial_speed))
 
 
-def _within(value: float, accepted: scenario.Nominal) -> bool:
+def _is_within(value: float, accepted: scenario.Nominal) -> bool:
     # Written so that NaN is not within; the last digits belong to unit conversion, not to the stop.
     return abs(value - accepted.value) <= accepted.tolerance * (1.0 + 1e-9)

@@ -108,14 +108,14 @@ class CylinderDynamics(Section):
     """Equation (8): (b0 + b1/z + b2/z2 + b3/z3) / (1 + a1/z + a2/z2 + a3/z3)."""
 
     gain_tolerance: ClassVar[float] = 1e-6
-    """How far the gain at rest may be from one; chosen."""
+    """Largest difference of the gain at rest from one; chosen."""
 
     numerator: tuple[Coefficient, Coefficient, Coefficient, Coefficient] = field("b0, b1, b2, b3.")
     denominator: tuple[Coefficient, Coefficient, Coefficient] = field("a1, a2, a3.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield an unstable denominator or a gain at rest that is not one."""
-        if not _stable(*self.denominator):
+        if not _is_stable(*self.denominator):
             yield Inconsistency(
                 ("denominator",),
                 "the transfer function is unstable",
@@ -131,7 +131,7 @@ class CylinderDynamics(Section):
             )
 
 
-def _stable(a1: float, a2: float, a3: float) -> bool:
+def _is_stable(a1: float, a2: float, a3: float) -> bool:
     """Jury's criterion for z3 + a1 z2 + a2 z + a3."""
     return (
         abs(a3) < 1.0
@@ -142,7 +142,7 @@ def _stable(a1: float, a2: float, a3: float) -> bool:
 
 
 class ModuleAir(Section):
-    """The air of the caliper's module, followed beside a tank: ours, not an equation of the paper."""
+    """Air that a caliper's module would hold, modelled for a tank: ours, not an equation of the paper."""
 
     tank_heat_conductance: HeatConductance = field("From the wall of a tank to its air.")
     caliper_heat_conductance: HeatConductance = field(
@@ -176,36 +176,36 @@ class ValveAsBuilt(WspValve):
     """A WSP valve: fill, hold or vent one tank."""
 
 
-def _tolerance(model: type[Model], name: str) -> Any:
+def _tolerance_field(model: type[Model], name: str) -> Any:
     return field(model.model_fields[name].description or "")
 
 
 class CaliperTolerances(Section):
     """A brake cylinder with its lever and pads."""
 
-    piston_area: Tolerance = _tolerance(CaliperNumbers, "piston_area")
-    preload: Tolerance = _tolerance(CaliperNumbers, "preload")
-    spring_rate: Tolerance = _tolerance(CaliperNumbers, "spring_rate")
-    coulomb_friction: Tolerance = _tolerance(CaliperNumbers, "coulomb_friction")
-    load_friction: Tolerance = _tolerance(CaliperNumbers, "load_friction")
-    viscous_friction: Tolerance = _tolerance(CaliperNumbers, "viscous_friction")
-    contact_friction: Tolerance = _tolerance(CaliperNumbers, "contact_friction")
-    clearance: Tolerance = _tolerance(CaliperNumbers, "clearance")
-    contact_stiffness: Tolerance = _tolerance(CaliperNumbers, "contact_stiffness")
-    lever_ratio: Tolerance = _tolerance(CaliperNumbers, "lever_ratio")
+    piston_area: Tolerance = _tolerance_field(CaliperNumbers, "piston_area")
+    preload: Tolerance = _tolerance_field(CaliperNumbers, "preload")
+    spring_rate: Tolerance = _tolerance_field(CaliperNumbers, "spring_rate")
+    coulomb_friction: Tolerance = _tolerance_field(CaliperNumbers, "coulomb_friction")
+    load_friction: Tolerance = _tolerance_field(CaliperNumbers, "load_friction")
+    viscous_friction: Tolerance = _tolerance_field(CaliperNumbers, "viscous_friction")
+    contact_friction: Tolerance = _tolerance_field(CaliperNumbers, "contact_friction")
+    clearance: Tolerance = _tolerance_field(CaliperNumbers, "clearance")
+    contact_stiffness: Tolerance = _tolerance_field(CaliperNumbers, "contact_stiffness")
+    lever_ratio: Tolerance = _tolerance_field(CaliperNumbers, "lever_ratio")
 
 
 class ValveTolerances(Section):
     """A WSP valve: fill, hold or vent one tank."""
 
-    fill_conductance: Tolerance = _tolerance(WspValve, "fill_conductance")
-    vent_conductance: Tolerance = _tolerance(WspValve, "vent_conductance")
-    switching_delay: Tolerance = _tolerance(WspValve, "switching_delay")
-    travel_time: Tolerance = _tolerance(WspValve, "travel_time")
+    fill_conductance: Tolerance = _tolerance_field(WspValve, "fill_conductance")
+    vent_conductance: Tolerance = _tolerance_field(WspValve, "vent_conductance")
+    switching_delay: Tolerance = _tolerance_field(WspValve, "switching_delay")
+    travel_time: Tolerance = _tolerance_field(WspValve, "travel_time")
 
 
 class RigTolerances(Section):
-    """How far a rig may differ from the one that a compensation was identified for, as shares."""
+    """Tolerances, as shares, of a rig against the one that a compensation was identified for."""
 
     caliper: CaliperTolerances = field("Of the caliper.")
     wsp_valve: ValveTolerances = field("Of the WSP valve.")
@@ -258,13 +258,13 @@ class Compensation(Part):
 RIG_SOURCE: Final = "identified-for"
 """Source of the numbers of a listed rig."""
 FIT_HINT: Final = "write `rig.compensation_model: identify` or `rig.topology: four-caliper`"
-"""What to write where a compensation does not fit."""
+"""Hint for a compensation that does not fit the rig."""
 _LEAST: Final = 1e-300
-"""What a tolerance of a number that is zero is at least: any other number is beyond it."""
+"""Least tolerance of a number that is zero: any other number is beyond it."""
 
 
 class RigDifference(NamedTuple):
-    """A number of a rig beside that of the rig which a compensation was identified for.
+    """A number of a rig compared with that of the rig which a compensation was identified for.
 
     Args:
         key: of the scenario.
@@ -300,7 +300,7 @@ class RigDifference(NamedTuple):
 
 
 def rig_differences(scenario: Any) -> list[RigDifference] | None:
-    """Return what modules without a caliper stand for beside what their compensation was identified for.
+    """Return the numbers of the simulated rig compared with those that its compensation was identified for.
 
     None where the compensation does not list its rig, or its numbers were changed since; empty where a
     caliper is in every module, and where the compensation is to be identified for this very rig.
@@ -313,7 +313,7 @@ def rig_differences(scenario: Any) -> list[RigDifference] | None:
     rig = model.identified_for
     if rig is None or not _is_as_identified(model):
         return None
-    return list(_differences(scenario, rig))
+    return list(_differences_of_rigs(scenario, rig))
 
 
 def _is_as_identified(model: Compensation) -> bool:
@@ -328,16 +328,16 @@ def _is_as_identified(model: Compensation) -> bool:
 
 def _numbers_in(value: Any) -> Iterator[Any]:
     if isinstance(value, Section | tuple):
-        for _, each in enumerate(value) if isinstance(value, tuple) else value:
-            yield from _numbers_in(each)
+        for _, item in enumerate(value) if isinstance(value, tuple) else value:
+            yield from _numbers_in(item)
     else:
         yield value
 
 
-def _differences(scenario: Any, rig: RigAsBuilt) -> Iterator[RigDifference]:
+def _differences_of_rigs(scenario: Any, rig: RigAsBuilt) -> Iterator[RigDifference]:
     for name in CaliperNumbers.model_fields:
         sections = scenario.rig.caliper, rig.caliper, rig.tolerances.caliper
-        yield RigDifference(f"rig.caliper.{name}", *(getattr(each, name) for each in sections))
+        yield RigDifference(f"rig.caliper.{name}", *(getattr(section, name) for section in sections))
     volume = scenario.brake.system.tank.volume
     yield RigDifference("brake.system.tank.volume", volume, rig.tank_volume, rig.tolerances.tank_volume)
     regular = scenario.brake.system.wsp_valve
@@ -345,14 +345,14 @@ def _differences(scenario: Any, rig: RigAsBuilt) -> Iterator[RigDifference]:
         expected, tolerance = (getattr(each, name) for each in (rig.wsp_valve, rig.tolerances.wsp_valve))
         yield RigDifference(f"brake.system.wsp_valve.{name}", getattr(regular, name), expected, tolerance)
         for number in WHEELSET_NUMBERS[1:]:
-            own = wheelset_value(scenario, number, f"wsp_valve.{name}")
-            if own is not getattr(regular, name):
+            of_wheelset = wheelset_value(scenario, number, f"wsp_valve.{name}")
+            if of_wheelset is not getattr(regular, name):
                 key = f"vehicle.wheelsets.{number}.wsp_valve.{name}"
-                yield RigDifference(key, own, expected, tolerance)
+                yield RigDifference(key, of_wheelset, expected, tolerance)
 
 
 def rig_as_built(scenario: Any) -> dict[str, Quantity]:
-    """Return what a compensation lists of the rig that it was identified for, by the keys of a scenario."""
+    """Return the numbers of a rig that a compensation lists: dotted key of a scenario -> quantity."""
     caliper, system = scenario.rig.caliper, scenario.brake.system
     return {
         **{f"rig.caliper.{name}": getattr(caliper, name) for name in CaliperNumbers.model_fields},

@@ -81,7 +81,7 @@ class ProgramFile(str):
 
 
 class ControllerPart(Part):
-    """What every controller has."""
+    """Fields of every controller."""
 
     folder: ClassVar[str] = "controllers"
 
@@ -92,31 +92,31 @@ class ControllerPart(Part):
 
     @property
     def program(self) -> ControllerProgram | None:
-        """What is loaded where the controller comes from outside, None where it is built in."""
+        """Program of a controller from outside; None for a built-in one."""
         return None
 
 
-def _parameter(value: object) -> Any:
+def _parse_parameter(value: object) -> Any:
     """Return a value of JSON; a number that remembers how it was written stays one."""
     if isinstance(value, float) and not math.isfinite(value):
         raise refused(f"JSON has no number {value}", "write a finite number, or a text")
     if isinstance(value, bool | int | float | str):
         return value
     if isinstance(value, list | tuple):
-        return tuple(_parameter(each) for each in value)
+        return tuple(_parse_parameter(each) for each in value)
     if isinstance(value, Mapping):
-        return {str(name): _parameter(each) for name, each in value.items()}
+        return {str(name): _parse_parameter(each) for name, each in value.items()}
     hint = "leave the parameter out" if value is None else ""
     raise refused("expected a number, a text, true, false, a list or a mapping", hint)
 
 
 _JSON: Final[dict[str, Any]] = {"type": ["number", "string", "boolean", "array", "object"]}
-ParameterValue = Annotated[Any, PlainValidator(_parameter), WithJsonSchema(_JSON)]
+ParameterValue = Annotated[Any, PlainValidator(_parse_parameter), WithJsonSchema(_JSON)]
 Bound = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 
 
 class DeclaredParameter(Section):
-    """What a parameter is measured in, what it is where nobody gives it, and what it may be."""
+    """Unit, default and range of a parameter."""
 
     default: ParameterValue = field("Handed to the controller where nobody gives the parameter.")
     unit: Annotated[str, BeforeValidator(lambda unit: "1" if unit == 1 and unit is not True else unit)] = (
@@ -146,18 +146,18 @@ ADDRESS_PATTERN: Final = r"^tcp://[A-Za-z0-9.\-]+:([0-9]{1,5})$"
 _LARGEST_PORT: Final = 65535
 
 
-def _file(value: object) -> ProgramFile:
+def _parse_program_file(value: object) -> ProgramFile:
     if isinstance(value, str):
         return value if isinstance(value, ProgramFile) else ProgramFile(value)
     raise refused("expected the path of a file", "write it relative to this file")
 
 
 ProgramPath = Annotated[
-    ProgramFile, PlainValidator(_file), WithJsonSchema({"type": "string", "minLength": 1})
+    ProgramFile, PlainValidator(_parse_program_file), WithJsonSchema({"type": "string", "minLength": 1})
 ]
 
 
-def _address(value: object) -> str:
+def _parse_address(value: object) -> str:
     match = re.fullmatch(ADDRESS_PATTERN, value) if isinstance(value, str) else None
     if match is None:
         raise refused(f"{quoted(str(value))} is not an address", "write tcp://HOST:PORT")
@@ -167,7 +167,7 @@ def _address(value: object) -> str:
 
 
 _ADDRESS: Final[dict[str, Any]] = {"type": "string", "pattern": ADDRESS_PATTERN}
-Address = Annotated[str, PlainValidator(_address), WithJsonSchema(_ADDRESS)]
+Address = Annotated[str, PlainValidator(_parse_address), WithJsonSchema(_ADDRESS)]
 
 
 class ExternalController(ControllerPart):
@@ -200,7 +200,7 @@ class ExternalController(ControllerPart):
 
     @property
     def reference(self) -> str:
-        """What names the program: the value of the key that is called as the kind."""
+        """Reference to the program: the value of the key that is named like the kind."""
         return str.__str__(getattr(self, self.kind))
 
     @property
@@ -210,12 +210,12 @@ class ExternalController(ControllerPart):
 
     @property
     def program_name(self) -> str:
-        """What the program is called: its file without folder and ending, unless a kind says it better."""
+        """Name of the program: its file without folder and suffix, unless a kind overrides it."""
         return PurePosixPath(self.reference).stem
 
     @property
     def options(self) -> dict[str, Any]:
-        """What only this kind has."""
+        """Options that only this kind has."""
         return {}
 
     @classmethod
@@ -228,7 +228,7 @@ class ExternalController(ControllerPart):
 
     @property
     def program(self) -> ControllerProgram:
-        """What is loaded."""
+        """Program to load."""
         value = getattr(self, self.kind)
         # What is known of its parameters: any are accepted, they are declared, or it is asked in a run.
         knowledge = "free" if self.free_parameters else "declared" if self.declared_parameters else "asked"
@@ -330,14 +330,14 @@ _NAMES: Final = (_ALGORITHM, *EXTERNAL_MODELS)
 
 def one_controller(value: object) -> object:
     """Return a mapping that names one controller; raise PydanticCustomError for any other mapping."""
-    problem = _problem(value) if isinstance(value, Mapping) else None
+    problem = _problem_of_mapping(value) if isinstance(value, Mapping) else None
     if problem is not None:
         context = {"message": problem.message, "inconsistencies": [problem]}
         raise PydanticCustomError("inconsistency", "{message}", context)
     return value
 
 
-def _problem(mapping: Mapping[str, object]) -> Inconsistency | None:
+def _problem_of_mapping(mapping: Mapping[str, object]) -> Inconsistency | None:
     named = [name for name in _NAMES if name in mapping]
     if not named:
         return _none_named(mapping)
@@ -379,7 +379,7 @@ _KNOWN: Final = _COMMON.union(
 
 
 class BuiltInController(ControllerPart):
-    """What every controller of this package has."""
+    """Fields of every controller of this package."""
 
     declaration: ClassVar[Declaration]
 
@@ -427,8 +427,8 @@ def __getattr__(name: str) -> type[BuiltInController]:
 _BUILT_IN = "built in"
 
 
-def _tag(value: object) -> str:
-    """Return which members of the union a mapping is meant for: those with an algorithm, or one other."""
+def _tag_of_kind(value: object) -> str:
+    """Return the tag of the union member that a mapping is for: built-in algorithms, or a kind of program."""
     if isinstance(value, ExternalController):
         return value.tag
     keys = value if isinstance(value, Mapping) else ()
@@ -441,5 +441,5 @@ else:
     _built_in = Annotated[reduce(or_, CONTROLLER_MODELS.values()), Field(discriminator="algorithm")]
     _external = [Annotated[model, Tag(model.tag)] for model in EXTERNAL_MODELS.values()]
     _union = reduce(or_, _external, Annotated[_built_in, Tag(_BUILT_IN)])
-    Controller = Annotated[_union, Discriminator(_tag), BeforeValidator(one_controller)]
+    Controller = Annotated[_union, Discriminator(_tag_of_kind), BeforeValidator(one_controller)]
     """A controller of any algorithm, or from outside."""

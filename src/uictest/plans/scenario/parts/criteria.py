@@ -116,7 +116,7 @@ class Criterion(Model):
 
     @property
     def meaning(self) -> str:
-        """What the measure is, in words."""
+        """The measure in words."""
         return self._measure.meaning
 
     @property
@@ -131,13 +131,13 @@ class Criterion(Model):
 
     @property
     def aggregation(self) -> str:
-        """Which wheelsets must keep the bounds, in words; empty for a measure of the stop."""
+        """Wheelsets that must keep the bounds, in words; empty for a measure of the stop."""
         if isinstance(self.wheelsets, AtLeast):
             return f"at least {self.wheelsets.at_least}"
         return self.wheelsets or ""
 
     def wheelsets_needed(self, count: int) -> int:
-        """Return how many of `count` values must keep the bounds (1 for a measure of the stop)."""
+        """Return the number of `count` values that must keep the bounds (1 for a measure of the stop)."""
         if isinstance(self.wheelsets, AtLeast):
             return (count + 1) // 2 if self.wheelsets.at_least == "half" else self.wheelsets.at_least
         return count if self.wheelsets == "all" else 1
@@ -187,7 +187,7 @@ class Criterion(Model):
             )
 
     def _dry_bound_problems(self) -> Iterator[Inconsistency]:
-        """Yield a share of the dry stop beside another bound, or of a measure that has no dry value."""
+        """Yield a share of the dry stop with another bound, or of a measure that has no dry value."""
         bounds = {"lower": self.lower, "upper": self.upper}
         shares = [name for name, bound in bounds.items() if isinstance(bound, DryBound)]
         if not shares:

@@ -98,7 +98,7 @@ class Tank(Section):
 
 
 class CaliperTank(Section):
-    """What makes the tank of a module with a caliper different."""
+    """Differences of the tank of a module with a caliper."""
 
     ball_volume: Quantity = quantity("Volume of the steel balls in the tank.", "volume", "0 L .. 1 m3")
     hose_and_dead_volume: Quantity = quantity(

@@ -44,7 +44,7 @@ TIME, SPEED, DISTANCE = (each.kind.canonical for each in _FIELDS)
 """Unit of an instant that is a time, a speed or a distance."""
 
 
-def _read(value: object) -> Quantity:
+def _parse_instant(value: object) -> Quantity:
     text = getattr(value, "text", str(value))
     for each in _FIELDS:
         with suppress(QuantityError):
@@ -56,7 +56,9 @@ def _read(value: object) -> Quantity:
 _SCHEMA: Final[dict[str, Any]] = {
     "anyOf": [{QUANTITY_KEYWORD: name} for name in KINDS if name in ("time", "speed", "length")]
 }
-Moment = Annotated[Quantity, PlainValidator(_read), PlainSerializer(written), WithJsonSchema(_SCHEMA)]
+Moment = Annotated[
+    Quantity, PlainValidator(_parse_instant), PlainSerializer(written), WithJsonSchema(_SCHEMA)
+]
 """A quantity whose unit says what it is."""
 _NAMES: Final = tuple(dict.fromkeys(name for _, name in FAULT_KINDS))
 
@@ -125,7 +127,7 @@ class Fault(Model):
 
     @property
     def effects(self) -> Effects:
-        """What it changes while it is active."""
+        """Changes while the fault is active."""
         return self.declared.effects(None if self.value is None else float(self.value))
 
     @property

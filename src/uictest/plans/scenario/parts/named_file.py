@@ -1,4 +1,4 @@
-"""What a file of stops says besides them: name, requirements, repeats and the expected outcome."""
+"""Entries of a file of stops besides the stops: name, requirements, repeats, expected outcome."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ class ShareOfStops(Model):
     )
 
 
-def _known(word: object) -> object:
+def _require_known_word(word: object) -> object:
     if isinstance(word, str) and word not in _WORDS:
         message = f"unknown value {quoted(word)}, expected one of {', '.join(_WORDS)}"
         raise refused(message, "write {at_least: 90 %} for a share of the stops")
@@ -137,7 +137,7 @@ def _known(word: object) -> object:
 
 
 OutcomeOfRepeats = Annotated[
-    Annotated[Literal["all", "median"], BeforeValidator(_known), Tag("word")]
+    Annotated[Literal["all", "median"], BeforeValidator(_require_known_word), Tag("word")]
     | Annotated[ShareOfStops, Tag("share")],
     Discriminator(lambda value: "share" if isinstance(value, dict | ShareOfStops) else "word"),
     Field(
@@ -162,14 +162,14 @@ def seeds_too_large(seed: int, repeat: int) -> Iterator[Inconsistency]:
 ExpectedOutcome = Literal["pass", "fail", "invalid", "skipped"]
 _OUTCOMES: Final[tuple[ExpectedOutcome, ...]] = get_args(ExpectedOutcome)
 _LAYERS: Final = {"fail": "requirement", "invalid": "validity"}
-"""What the names under a key are: ids of criteria of this layer."""
+"""Key of an expectation -> layer of the criteria whose ids stand under it."""
 _ALLOWANCE: Final = "of_another_controller"
 _EXAMPLE: Final = "write one of pass, fail, invalid, skipped, or `{fail: [locked-wheels]}`"
 
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """How a case is expected to come out.
+    """Expected outcome of a case.
 
     Args:
         outcome: the expected one.
@@ -187,7 +187,7 @@ class Expectation:
 
     @property
     def names_criteria(self) -> bool:
-        """Whether it names what may be missed."""
+        """Whether it names criteria that may be missed."""
         return bool(self.fail or self.invalid)
 
     @property
@@ -196,13 +196,13 @@ class Expectation:
         return self.outcome in _LAYERS and not self.names_criteria
 
     def of_another_controller(self) -> Expectation:
-        """Return what of it holds for another controller: what it names, as an allowance, else `pass`."""
+        """Return the expectation for another controller: named criteria may be missed; else `pass`."""
         if self.outcome not in _LAYERS:
             return self
         return replace(self, is_allowance=True) if self.names_criteria else Expectation()
 
     def form(self) -> str | dict[str, Any]:
-        """Return what a scenario writes for it."""
+        """Return it as written in a scenario."""
         names = {key: list(own) for key in _LAYERS if (own := getattr(self, key))}
         return names or self.outcome
 
@@ -213,7 +213,7 @@ class Expectation:
         return f"pass or {text}" if self.is_allowance else text
 
     def unknown_names(self, profiles: Iterable[Any]) -> Iterator[Inconsistency]:
-        """Yield each name that is no criterion of these profiles, or one of another layer."""
+        """Yield each name that is not a criterion of these profiles, or is one of another layer."""
         criteria = [criterion for profile in profiles for criterion in profile.criteria]
         for key, layer in _LAYERS.items():
             known = [each.id for each in criteria if each.layer == layer]
@@ -238,7 +238,7 @@ def expectation_of(content: object) -> Expectation:
     if not isinstance(content, Mapping):
         found = quoted(content) if isinstance(content, str) else json.dumps(content, default=str)
         raise refused(f"unknown value {found}, expected one of {', '.join(_OUTCOMES)}", _EXAMPLE)
-    names = {key: _names(key, value) for key, value in content.items()}
+    names = {key: _names_under(key, value) for key, value in content.items()}
     if not names:
         raise refused("an empty mapping names no criterion", _EXAMPLE)
     outcome = "fail" if "fail" in names else "invalid"
@@ -257,7 +257,7 @@ def _in_result(expect: Expectation) -> str | dict[str, Any]:
     return {**form, _ALLOWANCE: True} if expect.is_allowance and isinstance(form, dict) else form
 
 
-def _names(key: object, value: object) -> tuple[str, ...]:
+def _names_under(key: object, value: object) -> tuple[str, ...]:
     if key not in _LAYERS:
         raise refused(f"unknown key {quoted(str(key))}, expected {' or '.join(_LAYERS)}", _EXAMPLE)
     names = list(value) if isinstance(value, list | tuple) else []

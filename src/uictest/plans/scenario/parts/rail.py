@@ -360,7 +360,7 @@ class Sander(Model):
     """A sander with its nozzle ahead of a wheelset; its rates are those of one rail."""
 
     share_of_wheelbase: ClassVar[float] = 0.8
-    """How far ahead of its wheelset a nozzle may stand: safely behind the wheelset before; chosen."""
+    """Largest distance of a nozzle ahead of its wheelset, well short of the wheelset before; chosen."""
     usual_rate: ClassVar[Quantity] = default("6 kg/min", "sand rate")
     """Largest rate of a variable sander that states none; chosen, with a range of 4 to 8 kg/min."""
 
@@ -470,12 +470,12 @@ class Rail(Model):
 
     @property
     def cleaning_in_force(self) -> Cleaning | None:
-        """How sliding cleans the rail, or None where it does not."""
+        """Cleaning of the rail by sliding; None without it."""
         return self.condition.cleaning if self.cleaning is None else self.cleaning
 
     @property
     def variation_in_force(self) -> Variation | None:
-        """How friction varies at random, or None where it does not."""
+        """Random variation of friction; None without it."""
         variation = self.condition.variation if self.variation is None else self.variation
         return None if variation is None or variation.spread == 0.0 else variation
 

@@ -60,17 +60,19 @@ Radius = Annotated[Quantity, of_kind("length", "> 0.1 m .. 1 m")]
 Inertia = Annotated[Quantity, of_kind("inertia", "1 kg m2 .. 1e4 kg m2")]
 
 
-def _known(number: str) -> str:
+def _require_wheelset_number(number: str) -> str:
     if number not in NUMBERS:
         raise refused(f"no wheelset {quoted(number)}", f"accepted: {', '.join(NUMBERS)}")
     return number
 
 
-WheelsetNumber = Annotated[str, AfterValidator(_known), Field(json_schema_extra={"enum": list(NUMBERS)})]
+WheelsetNumber = Annotated[
+    str, AfterValidator(_require_wheelset_number), Field(json_schema_extra={"enum": list(NUMBERS)})
+]
 """Key of a wheelset."""
 
 
-def _own(regular: type[Model], name: str) -> Any:
+def _own_field(regular: type[Model], name: str) -> Any:
     """Return the field of a value that replaces the one of the same name in a regular section."""
     return optional(regular.model_fields[name].description or "")
 
@@ -78,46 +80,46 @@ def _own(regular: type[Model], name: str) -> Any:
 class OwnCaliper(Section):
     """A brake cylinder with its lever and pads."""
 
-    load_friction: LoadFriction | None = _own(Caliper, "load_friction")
-    coulomb_friction: CoulombFriction | None = _own(Caliper, "coulomb_friction")
+    load_friction: LoadFriction | None = _own_field(Caliper, "load_friction")
+    coulomb_friction: CoulombFriction | None = _own_field(Caliper, "coulomb_friction")
 
 
 class OwnWspValve(Section):
     """A WSP valve: fill, hold or vent one tank."""
 
-    fill_conductance: Conductance | None = _own(WspValve, "fill_conductance")
-    vent_conductance: Conductance | None = _own(WspValve, "vent_conductance")
-    switching_delay: ValveTime | None = _own(WspValve, "switching_delay")
-    travel_time: ValveTime | None = _own(WspValve, "travel_time")
+    fill_conductance: Conductance | None = _own_field(WspValve, "fill_conductance")
+    vent_conductance: Conductance | None = _own_field(WspValve, "vent_conductance")
+    switching_delay: ValveTime | None = _own_field(WspValve, "switching_delay")
+    travel_time: ValveTime | None = _own_field(WspValve, "travel_time")
 
 
 class OwnSpeedSensor(Section):
     """A toothed wheel on the axle; speed from the time between teeth."""
 
-    teeth: Teeth | None = _own(SpeedSensor, "teeth")
-    timer_resolution: TimerResolution | None = _own(SpeedSensor, "timer_resolution")
-    minimum_speed: LowestSpeed | None = _own(SpeedSensor, "minimum_speed")
-    noise: NoiseShare | None = _own(SpeedSensor, "noise")
-    gain_error: ErrorShare | None = _own(SpeedSensor, "gain_error")
-    method: SpeedMethod | None = _own(SpeedSensor, "method")
-    eccentricity: NoiseShare | None = _own(SpeedSensor, "eccentricity")
-    missing_teeth: MissingTeeth | None = _own(SpeedSensor, "missing_teeth")
+    teeth: Teeth | None = _own_field(SpeedSensor, "teeth")
+    timer_resolution: TimerResolution | None = _own_field(SpeedSensor, "timer_resolution")
+    minimum_speed: LowestSpeed | None = _own_field(SpeedSensor, "minimum_speed")
+    noise: NoiseShare | None = _own_field(SpeedSensor, "noise")
+    gain_error: ErrorShare | None = _own_field(SpeedSensor, "gain_error")
+    method: SpeedMethod | None = _own_field(SpeedSensor, "method")
+    eccentricity: NoiseShare | None = _own_field(SpeedSensor, "eccentricity")
+    missing_teeth: MissingTeeth | None = _own_field(SpeedSensor, "missing_teeth")
 
 
 class OwnPressureSensor(Section):
     """A pressure sensor of a tank or of the reservoir."""
 
-    gain_error: ErrorShare | None = _own(PressureSensor, "gain_error")
-    offset: PressureOffset | None = _own(PressureSensor, "offset")
-    noise: PressureNoise | None = _own(PressureSensor, "noise")
+    gain_error: ErrorShare | None = _own_field(PressureSensor, "gain_error")
+    offset: PressureOffset | None = _own_field(PressureSensor, "offset")
+    noise: PressureNoise | None = _own_field(PressureSensor, "noise")
 
 
 class OwnLoadcell(Section):
     """One of the loadcells between pad and disc."""
 
-    gain_error: ErrorShare | None = _own(Loadcell, "gain_error")
-    offset: ForceOffset | None = _own(Loadcell, "offset")
-    noise: ForceNoise | None = _own(Loadcell, "noise")
+    gain_error: ErrorShare | None = _own_field(Loadcell, "gain_error")
+    offset: ForceOffset | None = _own_field(Loadcell, "offset")
+    noise: ForceNoise | None = _own_field(Loadcell, "noise")
 
 
 class OwnSensors(Section):
@@ -129,7 +131,7 @@ class OwnSensors(Section):
 
 
 class OwnValues(Section):
-    """What one wheelset has of its own; everything else is as on the others."""
+    """Values of one wheelset that differ from the regular ones."""
 
     wheel_radius: Radius | None = optional(
         "Rolling radius of its wheels; vehicle.wheelset.radius if left out."
@@ -151,13 +153,13 @@ class OwnValues(Section):
     sensors: OwnSensors = field("Its sensors.", default=OwnSensors())
 
 
-def _completed(own: dict[str, OwnValues]) -> dict[str, OwnValues]:
+def _completed_wheelsets(own: dict[str, OwnValues]) -> dict[str, OwnValues]:
     return {number: own.get(number, OwnValues()) for number in NUMBERS}
 
 
-Wheelsets = Annotated[dict[WheelsetNumber, OwnValues], AfterValidator(_completed)]
+Wheelsets = Annotated[dict[WheelsetNumber, OwnValues], AfterValidator(_completed_wheelsets)]
 """The own values of all four wheelsets, those that a file leaves out empty."""
-ALIKE: Final = MappingProxyType(_completed({}))
+ALIKE: Final = MappingProxyType(_completed_wheelsets({}))
 """Wheelsets without values of their own."""
 REGULAR: Final[Mapping[str, str]] = MappingProxyType(
     {
@@ -192,7 +194,7 @@ def wheelset_value(scenario: Model, number: int, name: str) -> Any:
     ``caliper.load_friction``.
     """
     own = _getter(name)(_WHEELSETS(scenario)[str(number)])
-    return _regular(scenario, name) if own is None else own
+    return _regular_section(scenario, name) if own is None else own
 
 
 def wheelset_keys(number: int, name: str) -> tuple[str, ...]:
@@ -215,11 +217,11 @@ def distinct_values(scenario: Model, name: str) -> Iterator[tuple[Key, Quantity]
     for number in WHEELSET_NUMBERS:
         value = wheelset_value(scenario, number, name)
         own, regular = wheelset_keys(number, name)
-        written[tuple((regular if value is _regular(scenario, name) else own).split("."))] = value
+        written[tuple((regular if value is _regular_section(scenario, name) else own).split("."))] = value
     yield from written.items()
 
 
-def _regular(scenario: Model, name: str) -> Any:
+def _regular_section(scenario: Model, name: str) -> Any:
     return _getter(REGULAR[name])(scenario) if name in REGULAR else _WHOLE
 
 

@@ -24,7 +24,7 @@ class Document:
     display: str
     """Name shown in messages."""
     folder: Path
-    """Where relative paths inside it start."""
+    """Folder that relative paths inside it start from."""
     text: str
     sha256: str = ""
 
@@ -106,8 +106,15 @@ _LEAD: Final = 60
 class Diagnostic(NamedTuple):
     """One error in one file. Everything a user wrote appears escaped, safe for a terminal.
 
-    ``line`` and ``column`` count from one; ``excerpt`` is the line with a caret line below it. ``trace`` is
-    where an error of the program arose that the file brought about; empty for an error of the file.
+    Attributes:
+        file: name of the file as shown to users.
+        line: number of the line, from 1.
+        column: number of the character in the line, from 1.
+        key: dotted key; empty where the error has none.
+        message: what is wrong.
+        excerpt: the line, and below it a line with a caret.
+        hint: what to write instead; may be empty.
+        trace: traceback of an error of this program; empty for an error of the file.
     """
 
     file: str
@@ -147,7 +154,7 @@ class ScenarioErrors(Exception):  # noqa: N818 - it holds many errors, and its n
 
     @property
     def traces(self) -> tuple[str, ...]:
-        """Where errors of the program arose; empty where all are errors of the files."""
+        """Tracebacks of errors of the program; empty where all are errors of the files."""
         return tuple(each.trace for each in self.diagnostics if each.trace)
 
 
@@ -193,7 +200,7 @@ def require_none(diagnostics: Iterable[Diagnostic]) -> None:
 
 
 def read_each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Result]:
-    """Return what is read from each item. Raises ScenarioErrors with the errors of all of them."""
+    """Return the results of reading each item. Raises ScenarioErrors with the errors of all items."""
     results: list[_Result] = []
     diagnostics: list[Diagnostic] = []
     for item in items:
@@ -217,10 +224,10 @@ def _excerpt(location: Location) -> str:
     line, at = lines[location.line - 1], location.column - 1
     start = max(0, at - _LEAD)
     before, after = line[start:at], line[at : start + EXCERPT_WIDTH]
-    shown = _shown(before)
-    width = sum(2 if unicodedata.east_asian_width(char) in "WF" else 1 for char in shown)
-    return f"{shown}{_shown(after)}\n{' ' * width}^"
+    before_caret = _without_tabs(before)
+    width = sum(2 if unicodedata.east_asian_width(char) in "WF" else 1 for char in before_caret)
+    return f"{before_caret}{_without_tabs(after)}\n{' ' * width}^"
 
 
-def _shown(text: str) -> str:
+def _without_tabs(text: str) -> str:
     return visible(text.replace("\t", " "))

@@ -50,7 +50,9 @@ class QuantityField(NamedTuple):
     def validate(self, value: object) -> Quantity:
         """Return the quantity of a text, a number, or a mapping of value and source."""
         try:
-            return self._within(self._marked(value) if isinstance(value, dict) else self._number(value))
+            return self._checked_within_bounds(
+                self._validated_mapping(value) if isinstance(value, dict) else self._number(value)
+            )
         except QuantityError as error:
             raise refused(error.message, error.hint, "quantity") from None
 
@@ -64,7 +66,7 @@ class QuantityField(NamedTuple):
             raise QuantityError(f"expected {described(self.kind)}", f"write {example(self.kind)}")
         return parse_quantity(getattr(value, "text", str(value)), self.kind.name, source, self._accepts)
 
-    def _marked(self, mapping: dict[str, object]) -> Quantity:
+    def _validated_mapping(self, mapping: dict[str, object]) -> Quantity:
         """Return a number with its source, its plausible range and how likely the values in that are."""
         source = mapping.get("source", SCENARIO_SOURCE if "range" in mapping else None)
         of_range = mapping.get("range_source", source)
@@ -87,7 +89,7 @@ class QuantityField(NamedTuple):
         """Return the plausible range of a value: two bounds that hold it, in its unit."""
         if not isinstance(ends, list | tuple) or len(ends) != 2 or dict in map(type, ends):
             raise QuantityError("a range has two ends", f"write [{example(self.kind)}, and a larger one]")
-        low, high = [self._within(self._number(end, source)) for end in ends]
+        low, high = [self._checked_within_bounds(self._number(end, source)) for end in ends]
         unit = unit_as_written(value.text)
         if not unit == unit_as_written(low.text) == unit_as_written(high.text):
             raise QuantityError(
@@ -100,10 +102,10 @@ class QuantityField(NamedTuple):
             )
         return low, high
 
-    def _within(self, value: Quantity) -> Quantity:
+    def _checked_within_bounds(self, value: Quantity) -> Quantity:
         if self.kind.name == "count" and not value.is_integer():
             raise QuantityError(f"{quoted(value.text)} is not a whole number")
-        bounds = _bounds(self.kind.name, self.span)
+        bounds = _parse_bounds(self.kind.name, self.span)
         for words, _, bound, keeps in bounds:
             if not keeps(value, bound):
                 accepted = " and ".join(f"{end.words} {end.value.text}" for end in bounds)
@@ -113,7 +115,7 @@ class QuantityField(NamedTuple):
         return value
 
     def _accepts(self, value: float) -> bool:
-        return all(keeps(value, bound) for _, _, bound, keeps in _bounds(self.kind.name, self.span))
+        return all(keeps(value, bound) for _, _, bound, keeps in _parse_bounds(self.kind.name, self.span))
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(
@@ -129,7 +131,7 @@ class QuantityField(NamedTuple):
         """Return the JSON Schema of the value alone, or of a mapping of value and source."""
         if self.kind.bare:
             types = ["integer" if self.kind.name == "count" else "number", "string"]
-            bounds = {end.keyword: float(end.value) for end in _bounds(self.kind.name, self.span)}
+            bounds = {end.keyword: float(end.value) for end in _parse_bounds(self.kind.name, self.span)}
             value = {"type": types, "pattern": rf"^\s*{NUMBER_PATTERN}\s*$", **bounds}
         else:
             units = "|".join(re.escape(symbol).replace(r"\ ", r"\s+") for symbol in self.kind.units)
@@ -168,7 +170,7 @@ class QuantityField(NamedTuple):
 
 
 @cache
-def _bounds(kind: str, span: str) -> tuple[Bound, ...]:
+def _parse_bounds(kind: str, span: str) -> tuple[Bound, ...]:
     """Return the ends of a span, the lower first; read when a value is compared, not when a model is made."""
     first, last = (end.strip() for end in span.split(".."))
     lower = ("above", "exclusiveMinimum", gt) if first.startswith(">") else ("at least", "minimum", ge)

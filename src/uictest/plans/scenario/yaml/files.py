@@ -57,7 +57,7 @@ def require_schema(tree: Map, expected: str, hints: dict[str, str] | None = None
 LARGEST: Final = 256 * 1024
 """Largest file that is read, bytes."""
 LIBRARY: Final = "library:"
-"""How the shown name of a library file begins."""
+"""Prefix of the shown name of a library file."""
 
 
 def read_file(path: Path, schema: str = SCENARIO_SCHEMA) -> Map:
@@ -68,7 +68,7 @@ def read_file(path: Path, schema: str = SCENARIO_SCHEMA) -> Map:
         raise single_error(
             whole_file(path), "the file name is not UTF-8", hint="reports could not name it; rename the file"
         )
-    return _tree(display, path.parent, _content(path), schema)
+    return _parse_tree(display, path.parent, _read_content(path), schema)
 
 
 def read_document(path: Path, largest: int, hint: str) -> Document:
@@ -76,14 +76,14 @@ def read_document(path: Path, largest: int, hint: str) -> Document:
 
     ``hint`` is shown for a larger file.
     """
-    display, content = display_name(path), _content(path, largest, hint)
-    return Document(display, path.parent, _decoded(display, path.parent, content))
+    display, content = display_name(path), _read_content(path, largest, hint)
+    return Document(display, path.parent, _decode_content(display, path.parent, content))
 
 
 @cache
 def read_library(folder: str, name: str) -> Map:
     """The tree of a library file, read once by a process: the library does not change."""
-    return _tree(f"{LIBRARY}{folder}/{name}.yaml", Path(), library.content(folder, name))
+    return _parse_tree(f"{LIBRARY}{folder}/{name}.yaml", Path(), library.content(folder, name))
 
 
 def display_name(path: Path) -> str:
@@ -121,7 +121,7 @@ def is_file(path: Path) -> bool:
     return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises for names that are too long
 
 
-def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario file?") -> bytes:
+def _read_content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario file?") -> bytes:
     try:
         if not is_file(path):
             there = os.path.lexists(path)
@@ -137,7 +137,7 @@ def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario
 
 
 def _shipped_hint(path: Path) -> str:
-    """What to write for a shipped scenario that was taken for a file here; empty where none is meant."""
+    """Hint for a missing file that names a shipped scenario; empty if it names none."""
     shipped = library.scenarios()
     name = path.name.partition(".")[0]
     if name in shipped:
@@ -148,9 +148,9 @@ def _shipped_hint(path: Path) -> str:
     return f"did you mean {quoted(guess)}?" if guess else f"by name there are {', '.join(shipped)}"
 
 
-def _tree(display: str, folder: Path, content: bytes, schema: str = SCENARIO_SCHEMA) -> Map:
+def _parse_tree(display: str, folder: Path, content: bytes, schema: str = SCENARIO_SCHEMA) -> Map:
     document = Document(
-        display, folder, _decoded(display, folder, content), hashlib.sha256(content).hexdigest()
+        display, folder, _decode_content(display, folder, content), hashlib.sha256(content).hexdigest()
     )
     beginning = f"start with `schema: {schema}`"
     root = parse(document, beginning=beginning)
@@ -159,7 +159,7 @@ def _tree(display: str, folder: Path, content: bytes, schema: str = SCENARIO_SCH
     return root
 
 
-def _decoded(display: str, folder: Path, content: bytes) -> str:
+def _decode_content(display: str, folder: Path, content: bytes) -> str:
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -297,7 +297,7 @@ class Files:
         return path
 
     def once(self, name: str, read: Callable[[], Any]) -> Any:
-        """What ``read`` returns the first time; the same for this name ever after."""
+        """Return the result of ``read``, which is called only at the first call for this name."""
         if name not in self._read:
             self._read[name] = read()
         return self._read[name]
@@ -313,7 +313,7 @@ def trust_hint(path: Path) -> str:
 
 
 def nearest_file(path: Path, otherwise: str) -> str:
-    """The hint for a file that is missing: one beside it with nearly its name, or what else to do."""
+    """Hint for a missing file: a file of a similar name in its folder, or another remedy."""
     try:
         guess = nearest(path.name, (each.name for each in path.parent.iterdir() if each.is_file()))
     except (OSError, ValueError):
@@ -340,7 +340,7 @@ def scenario_trees(
     seen: set[str] = set()
     for given in paths:
         named = not os.path.isdir(given)  # noqa: PTH112 - Path.is_dir raises for names that are too long
-        for path in [given] if named else _below(given, diagnostics):
+        for path in [given] if named else _files_below(given, diagnostics):
             key = os.path.abspath(path)  # noqa: PTH100 - one file under two spellings, links left alone
             if key in seen:
                 continue
@@ -366,7 +366,7 @@ def link_outside(path: Path) -> Diagnostic:
     return diagnose(whole_file(path), "a link that leads out of the folders given", hint=trust_hint(path))
 
 
-def _below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
+def _files_below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
     def report(error: OSError) -> None:
         diagnostics.extend(unreadable_error(whole_file(Path(error.filename or folder)), error).diagnostics)
 

@@ -22,7 +22,7 @@ from uictest.plans.scenario.yaml.quantities import DEFAULT_SOURCE, SCENARIO_SOUR
 Key = tuple[str | int, ...]
 
 NAME_PATTERN: Final = r"^[a-z0-9][a-z0-9._-]{0,99}$"
-"""What the name of a part looks like."""
+"""Pattern of the name of a part."""
 
 
 class Inconsistency(NamedTuple):
@@ -75,7 +75,7 @@ class Section(Model):
 
 
 class Source(Model):
-    """Where a number comes from."""
+    """Source of a number."""
 
     mark: Literal["stated", "published", "identified", "chosen"] = Field(
         description="stated: in the text of Lee and Kang (2015); published: elsewhere; identified: from a "
@@ -126,7 +126,7 @@ class Part(Model):
 
     @property
     def label(self) -> str:
-        """What reports call the part."""
+        """Name of the part in reports."""
         return self.name
 
     def with_origin(self, based_on: str | None, original: "Part | None") -> Self:
@@ -331,7 +331,7 @@ def is_changed(part: Part) -> bool:
 
 @cache
 def adapter_of(model: Any) -> TypeAdapter[Any]:
-    """Return what validates a model, built at its first use."""
+    """Return the validator of a model, built at its first use."""
     if isinstance(model, type) and issubclass(model, BaseModel):
         model.model_rebuild()  # kept for the models that contain this one; an adapter keeps its own
     return TypeAdapter(model)

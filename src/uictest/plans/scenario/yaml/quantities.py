@@ -23,7 +23,7 @@ SCENARIO_SOURCE: Final = "scenario"
 DEFAULT_SOURCE: Final = "default"
 """Source of a number that nobody wrote: the default of a field."""
 Prior = Literal["uniform", "log-uniform"]
-"""How likely the values of a plausible range are: all of them alike, or all factors of one size alike."""
+"""Distribution over a plausible range: uniform in the value, or uniform in its logarithm."""
 DEFAULT_PRIOR: Final = "uniform"
 """Where a range states none: two ends and nothing else prefer no value; chosen."""
 # Bounded digits and exponent: an exact fraction of 1e999999999 would fill the memory.
@@ -89,7 +89,7 @@ class QuantityError(ValueError):
 
 
 def refused(message: str, hint: str = "", kind: Any = "refused") -> PydanticCustomError:
-    """Return what a validator raises: what is wrong with a value, and what to write."""
+    """Return the error that a validator raises, with a message and a hint what to write."""
     return PydanticCustomError(kind, "{message}", {"message": message, "hint": hint})
 
 
@@ -196,7 +196,7 @@ def _plain(symbol: str) -> str:
 
 
 def described(kind: Kind) -> str:
-    """What a quantity of this kind is called in a message."""
+    """Name of a quantity of this kind in messages."""
     if kind.bare:
         return "a whole number" if kind.name == "count" else "a number"
     article = "an" if kind.name[0] in "aeiou" else "a"
@@ -266,7 +266,7 @@ def evenly_spaced(first: Decimal, last: Decimal, count: int) -> list[Decimal]:
 
 
 def count_by_step(first: Decimal, last: Decimal, step: Decimal) -> int:
-    """Return how many numbers :func:`spaced_by_step` returns; 0 where no step leads to `last`."""
+    """Return the length of :func:`spaced_by_step`; 0 where no step leads to `last`."""
     steps = (last - first) / step if step else Decimal(-1)
     return int(steps) + 1 if steps >= 0 else 0
 

@@ -112,7 +112,7 @@ def as_written(node: Node) -> str:
 
 
 def describe(node: Node) -> str:
-    """What sort of node this is, in the words of a message."""
+    """Kind of a node in the words of a message."""
     if isinstance(node, Map):
         return "a mapping"
     if isinstance(node, List):
@@ -146,13 +146,13 @@ def entry_at(node: Node, key: tuple[str | int, ...]) -> tuple[Entry, int]:
     """
     entry, depth = Entry(node.location, node), 0
     for count, element in enumerate(key, start=1):
-        inner = _child(entry.node, element)
+        inner = _child_entry(entry.node, element)
         if inner is not None:
             entry, depth = inner, count
     return entry, depth
 
 
-def _child(node: Node, element: str | int) -> Entry | None:
+def _child_entry(node: Node, element: str | int) -> Entry | None:
     if isinstance(node, Map) and isinstance(element, str):
         return node.entries.get(element)
     if isinstance(node, List) and isinstance(element, int) and 0 <= element < len(node.items):
@@ -230,7 +230,7 @@ class _Parser:
         after = next_event()
         if not isinstance(after, yaml.StreamEndEvent):
             location = self._location(after.start_mark.line, after.start_mark.column)
-            self._report(location, "a second YAML document", "one file holds one of them")
+            self._add_diagnostic(location, "a second YAML document", "one file holds one of them")
         return root
 
     def _node(self, event: Any, depth: int) -> Node:
@@ -242,12 +242,16 @@ class _Parser:
         if depth > DEEPEST:
             raise single_error(location, f"nested deeper than {DEEPEST} levels")
         if kind is yaml.AliasEvent:
-            self._report(location, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT)
+            self._add_diagnostic(
+                location, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT
+            )
             return Scalar(None, "", location)
         if event.anchor is not None:
-            self._report(location, f"anchor {quoted('&' + event.anchor)} is not accepted", _REPEAT_HINT)
+            self._add_diagnostic(
+                location, f"anchor {quoted('&' + event.anchor)} is not accepted", _REPEAT_HINT
+            )
         if event.tag is not None:
-            self._report(
+            self._add_diagnostic(
                 location, f"tag {quoted(event.tag)} is not accepted", "write the value without a tag"
             )
         if kind is yaml.MappingStartEvent:
@@ -284,7 +288,7 @@ class _Parser:
                 entries[key.text] = Entry(key.location, node)
         return Map(entries, location)
 
-    def _report(self, location: Location, message: str, hint: str) -> None:
+    def _add_diagnostic(self, location: Location, message: str, hint: str) -> None:
         self.diagnostics.append(diagnose(location, message, hint=hint))
         if len(self.diagnostics) >= _MOST_DIAGNOSTICS:
             raise ScenarioErrors(self.diagnostics)

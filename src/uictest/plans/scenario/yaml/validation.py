@@ -43,7 +43,7 @@ _MEANT_BY_WORD: Final = {
 
 
 def hint_for_key(model: Any, key: Key, written: Key, node: Node) -> str:
-    """What to write instead of an unknown ``key`` of ``model`` that holds ``node``.
+    """Hint for an unknown ``key`` of ``model`` with the value ``node``.
 
     ``written`` is the key without tags: another member of the union there may have it, which is no place.
     """
@@ -58,19 +58,19 @@ def hint_for_key(model: Any, key: Key, written: Key, node: Node) -> str:
     longer = longer_name(name, accepted)
     if longer is not None:
         return f"did you mean '{longer}'?"
-    places = [".".join(other) for other in _places(model, name) if other != written]
+    places = [".".join(other) for other in _paths_of_key(model, name) if other != written]
     if len(places) == 1:
         return f"did you mean {places[0]}?"
     return f"keys of that name: {', '.join(places)}" if places else suggestion(name, accepted)
 
 
-def _places(model: Any, name: str) -> list[tuple[str, ...]]:
-    """Where else a model has a key called ``name``: those nearest to its top."""
+def _paths_of_key(model: Any, name: str) -> list[tuple[str, ...]]:
+    """Return the paths of keys called ``name`` in a model, those nearest to its top."""
     level: list[tuple[tuple[str, ...], Any]] = [((), each) for each in models_in(model)]
     for _ in range(_DEEPEST):
-        places = [(*above, name) for above, each in level if name in each.model_fields]
-        if places:
-            return list(dict.fromkeys(places))
+        paths = [(*above, name) for above, each in level if name in each.model_fields]
+        if paths:
+            return list(dict.fromkeys(paths))
         level = [
             ((*above, inner), below)
             for above, each in level
@@ -82,7 +82,7 @@ def _places(model: Any, name: str) -> list[tuple[str, ...]]:
 
 
 def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
-    """What to write where ``node`` stands in place of the mapping ``name``: a key that takes the value."""
+    """Hint for ``node`` in place of the mapping ``name``: a key that takes the value."""
     named = [*fields_named(model, key[:-1], str(key[-1]))] if key else []
     if named and not any(models_in(field.annotation) for field in named):
         return named[0].description or ""  # its keys are free
@@ -131,11 +131,11 @@ def validated(model: Any, data: object, tree: Node, prefix: Key = ()) -> Any:
     except ValidationError as error:
         errors = error.errors(include_url=False)
     raise ScenarioErrors(
-        diagnostic for each in errors for diagnostic in _translated(each, model, tree, prefix)
+        diagnostic for each in errors for diagnostic in _as_diagnostics(each, model, tree, prefix)
     )
 
 
-def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Diagnostic]:
+def _as_diagnostics(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Diagnostic]:
     key: Key = error["loc"]
     context, written = error.get("ctx", {}), _written_key(key, tree)
     if error["type"] == "inconsistency":
@@ -153,16 +153,16 @@ def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Dia
     elif error["type"] == "missing":
         message = f"missing key {quoted(str(key[-1]))}"
         described = (field.description for field in fields_named(model, key[:-1], str(key[-1])))
-        yield _at(key[:-1], message, next(filter(None, described), ""), tree, prefix, key[-1:])
+        yield _diagnostic_at(key[:-1], message, next(filter(None, described), ""), tree, prefix, key[-1:])
     else:
         node = entry_at(tree, key)[0].node
-        message, hint = _worded(error, context, node)
+        message, hint = _message_and_hint(error, context, node)
         hint = _hint_of_shape(error["type"], model, key, (*prefix, *written), node) or hint
-        yield _at(key, message, hint, tree, prefix)
+        yield _diagnostic_at(key, message, hint, tree, prefix)
 
 
 def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) -> str:
-    """What to write where a mapping, a list or a single value is expected and something else stands."""
+    """Hint for a node of another kind than the expected mapping, list or single value."""
     if kind in _MAPPINGS:
         return hint_for_mapping(model, key, str(written[-1]) if written else "", node)
     if kind == "tuple_type":
@@ -176,7 +176,9 @@ def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) ->
     return ""
 
 
-def _at(key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key = ()) -> Diagnostic:
+def _diagnostic_at(
+    key: Key, message: str, hint: str, tree: Node, prefix: Key, beyond: Key = ()
+) -> Diagnostic:
     entry, _ = entry_at(tree, key)
     # A missing key is reported at the key of the mapping that lacks it.
     location = entry.key if beyond else entry.node.location
@@ -188,11 +190,13 @@ def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, p
     name = context["discriminator"].strip("'")
     choices = sorted(get_args(field.annotation)[0] for field in fields_named(model, key, name))
     if "tag" not in context:
-        return _at(
+        return _diagnostic_at(
             key, f"missing key {quoted(name)}", f"accepted: {', '.join(choices)}", tree, prefix, (name,)
         )
     tag = str(context["tag"])
-    return _at((*key, name), f"unknown {name} {quoted(tag)}", suggestion(tag, choices), tree, prefix)
+    return _diagnostic_at(
+        (*key, name), f"unknown {name} {quoted(tag)}", suggestion(tag, choices), tree, prefix
+    )
 
 
 def dotted(key: Key) -> str:
@@ -209,7 +213,7 @@ def _written_key(key: Key, tree: Node) -> Key:
     return tuple(kept)
 
 
-def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
+def _message_and_hint(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
     kind = error["type"]
     if "message" in context:
         return context["message"], context.get("hint", "")
@@ -230,7 +234,7 @@ def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
             # YAML takes 4.2, true and null for what they look like, unless they stand in quotes.
             hint = f'write it in quotes: "{visible(text)}"'
         if kind in ("bool_type", "bool_parsing") and isinstance(node, Scalar):
-            hint = _meant(text, ["true", "false"])
+            hint = _suggested_choices(text, ["true", "false"])
         if kind == "int_type" and text.isdecimal() and node == Scalar(text, text, node.location):
             hint = f"write {text} without quotes"
         shown = f" ({quoted(text)})" if text else ""
@@ -241,12 +245,12 @@ def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
 def _not_one_of(node: Node, choices: list[str]) -> tuple[str, str]:
     if not isinstance(node, Scalar):
         return f"expected one of {', '.join(choices)}, found {describe(node)}", ""
-    hint = _meant(node.text, choices) or suggestion(node.text, choices)
+    hint = _suggested_choices(node.text, choices) or suggestion(node.text, choices)
     message = f"unknown value {quoted(node.text)}, expected one of {', '.join(choices)}"
     return message, hint if hint.startswith("did") else ""
 
 
-def _meant(text: str, choices: list[str]) -> str:
+def _suggested_choices(text: str, choices: list[str]) -> str:
     """Return a hint at the choice that a word like `on`, a beginning or a digit means, empty for none."""
     word = text.lower().replace("_", "-").replace("1", "one").replace("4", "four")
     begun = [choice for choice in choices if len(word) >= _FEWEST_LETTERS and choice.startswith(word)]
