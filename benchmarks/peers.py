@@ -21,8 +21,7 @@ from stops import Stop, slide_test
 
 from uictest.rig.lanes import run_in_lanes
 from uictest.rig.model.rail import FRICTIONS
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import run_to_end
+from uictest.rig.train_stop import compiled_rig, run_to_end
 
 STOPS = 64
 """Stops run by those that run many."""

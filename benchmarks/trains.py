@@ -15,8 +15,7 @@ from timing import side_by_side
 
 from uictest import rig
 from uictest.plans.scenario import Case, load
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import run_to_end
+from uictest.rig.train_stop import compiled_rig, run_to_end
 
 SCENARIO = Path(__file__).parent.parent / "scenarios" / "cleaned-rail-120.yaml"
 DISTANCE = 26.4

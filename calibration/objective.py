@@ -11,8 +11,7 @@ from parameters import Fields, fields, values
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.model.rail import FRICTIONS
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import FinishedStop, StopInputs, run_to_end
+from uictest.rig.train_stop import FinishedStop, StopInputs, compiled_rig, run_to_end
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 SETTINGS: dict[str, Fields] = {

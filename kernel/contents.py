@@ -10,7 +10,7 @@ from kernel.records import lane_struct, struct
 from uictest.controllers import EXCHANGE, OUTPUTS_AT
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.core.physics import arithmetic
-from uictest.rig import lanes, recorded_stop, reference_distance, stops
+from uictest.rig import lanes, recorded_stop, reference_distance, train_stop
 from uictest.rig.bench import identified_air, run as bench
 from uictest.rig.bench.run import BENCH_SAMPLE
 from uictest.rig.kernel import arguments as lane_functions
@@ -43,7 +43,7 @@ _IN_LANES: Final = tuple(RECORDS)[:8]
 _WIDTH: Final = max(WIDTHS.values())
 """Lanes by which the layouts of blocks are found here; in the generated code each variant has its own."""
 ENTRIES: Final = (
-    *(stops.RUN, stops.STEP, lanes.entry(_WIDTH), recorded_stop.NOTE),
+    *(train_stop.RUN, train_stop.STEP, lanes.entry(_WIDTH), recorded_stop.NOTE),
     *(recorded_stop.FOLLOW, reference_distance.ENTRY, bench.BENCH, identified_air.WALK),
 )
 _CALLS: Final = f"""

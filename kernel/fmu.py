@@ -18,7 +18,7 @@ from uictest.api.fmu.building import FOLDER, SYSTEMS
 from uictest.rig.kernel.arguments import leaves, lengths
 from uictest.rig.kernel.library import Entry, source_digest
 from uictest.rig.model.controller import ALONE
-from uictest.rig.stops import STEP
+from uictest.rig.train_stop import STEP
 
 CALLED: Final = {"step_rig": ("RIG_ARGUMENTS", STEP), "decide_alone": ("CONTROLLER_ARGUMENTS", ALONE)}
 """What kernel/fmi calls -> its name for the number of arguments, and the function."""

@@ -91,8 +91,8 @@ def definitions(case: Case) -> dict[str, Mapping[str, float]]:
     for criterion in (each for profile in case.scenario.criteria for each in profile.criteria):
         read_as: tuple[Any, ...] = (criterion, *criterion.readings)
         for each in read_as:
-            stated.setdefault(each.measure, each.definition.stated())
-            common = {**each.definition.stated(), **common}
+            stated.setdefault(each.measure, each.definition.stated)
+            common = {**each.definition.stated, **common}
     return {name: {**common, **stated.get(name, {})} for name in MEASURES}
 
 

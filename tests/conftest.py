@@ -57,7 +57,6 @@ _LONGEST = (
     "service_log/test_campaign.py",
     "service_log/test_found_stops.py",
     "docs/test_pictures.py",
-    "cli/test_signals.py",
     "fmu/test_building.py",
     "studies/field/test_search.py",
     "cli/commands/test_sweep_results.py",
@@ -65,12 +64,10 @@ _LONGEST = (
     "selftest/test_selftest.py",
     "firmness/test_varied_case.py",
     "templates/test_controller.py",
-    "recording/formats/test_isolation.py",
     "cli/test_controllers_outside.py",
     "cli/commands/test_identify.py",
     "cli/commands/test_series.py",
     "report/test_laid_over_browser.py",
-    "report/test_page_numbers.py",
     "rig/bench/test_identified_air.py",
 )
 """Files that take longest. They begin first, lest one process works on them while the others are done.

@@ -103,20 +103,14 @@ def _written_parquet(tree):
     return stream.getvalue()
 
 
-READ_FORM = {
-    "yaml": yaml.safe_load,
-    "json": json.loads,
-    "csv": _read_csv,
-    "xml": _read_xml,
-    "parquet": _read_parquet,
+FORMS = {
+    "yaml": (yaml.safe_load, _written_json),
+    "json": (json.loads, _written_json),
+    "csv": (_read_csv, _written_csv),
+    "xml": (_read_xml, _written_xml),
+    "parquet": (_read_parquet, _written_parquet),
 }
-WRITTEN_FORM = {
-    "yaml": _written_json,
-    "json": _written_json,
-    "csv": _written_csv,
-    "xml": _written_xml,
-    "parquet": _written_parquet,
-}
+"""Ending of a file -> how it is read as a tree, and how a tree is written."""
 
 VALUES = (
     *(None, True, False, 0, 1, -1, 2, 4, 5, 10**30, 0.1, -0.0, 1e-320, 1e308, float("nan"), float("inf")),
@@ -137,17 +131,12 @@ WAYS = ("replace", "delete", "repeat", "swap", "wrap", "rename", "retype", "copy
 damages = st.lists(
     st.tuples(st.sampled_from(WAYS), *(st.integers(0, 9999) for _ in range(3))), min_size=1, max_size=3
 )
-byte_damages = st.lists(
-    st.tuples(
-        st.sampled_from(("change", "delete", "insert", "repeat", "cut", "line", "no line")),
-        *(st.integers(0, 10**6), st.integers(0, 40)),
-        st.sampled_from(
-            (b"\x00", b"\xff", b"-", b":", b"{", b"]", b'"', b"\n", b"\t", b"9", b"e", b"\xed\xa0\x80")
-        ),
-    ),
-    min_size=1,
-    max_size=4,
+BYTE_WAYS = ("change", "delete", "insert", "repeat", "cut", "line", "no line")
+NEW_BYTES = (b"\x00", b"\xff", b"-", b":", b"{", b"]", b'"', b"\n", b"\t", b"9", b"e", b"\xed\xa0\x80")
+byte_damage = st.tuples(
+    st.sampled_from(BYTE_WAYS), st.integers(0, 10**6), st.integers(0, 40), st.sampled_from(NEW_BYTES)
 )
+byte_damages = st.lists(byte_damage, min_size=1, max_size=4)
 
 
 def _places(tree, above=()):
@@ -288,7 +277,7 @@ class Kind:
     def form(self):
         """What its content is a tree of, if it is one."""
         ending = self.file.rpartition(".")[2]
-        return ending if ending in READ_FORM else ""
+        return ending if ending in FORMS else ""
 
 
 PARTS = {
@@ -308,105 +297,61 @@ REPORT = command("report bad --format md,junit,csv -o out")
 EVALUATE = command(
     "evaluate -v x.csv --scenario stop.yaml --format json -o out --record none", reasons=get_args(DefectKind)
 )
+RUN, SWEEP, VALID = "good/results.json", "swept/results.json", "valid/validation.json"
+STOP = "recordings/stop.parquet"
+RECORD = f"good/{STOP}"
+CHECK = command("check {}")
+BASELINE = function(compared_baseline, ValueError, OSError)
+USED_VALIDATION = function(validation.read_validation, ValueError, OSError)
+CONTENTS = function(read_contents, UnreadableError, OSError)
 LIBRARY = "src/uictest/plans/library"
-KINDS = tuple(
-    Kind(*row)
-    for row in (
-        ("scenario", "x.yaml", "scenarios/*-*[0-9].yaml full.yaml outside.yaml", command("check {}")),
-        ("sweep", "x.sweep.yaml", "scenarios/*.sweep.yaml", command("check {}")),
-        ("series", "x.series.yaml", "scenarios/*.series.yaml", command("check {}")),
-        *(
-            (f"{name} part", "part.yaml", f"{LIBRARY}/{folder}/*.yaml", command(f"check uses-{name}.yaml"))
-            for name, (folder, _) in PARTS.items()
-        ),
-        (
-            "controller from outside",
-            "part.yaml",
-            "wsp.yaml fmu.yaml socket.yaml",
-            command("check uses-controller.yaml"),
-        ),
-        ("bench recipe", "x.yaml", f"{LIBRARY}/benches/*.yaml", function(bench.load_bench)),
-        (
-            "channel map",
-            "x.yaml",
-            f"{LIBRARY}/channel_maps/*.yaml map.yaml",
-            command("evaluate -v --list stop.csv --map {}"),
-        ),
-        ("validation", "x.validation.yaml", "plan.validation.yaml", function(series_plans.load_validation)),
-        ("requirements in YAML", "x.yaml", "list.yaml", LIST),
-        ("requirements in CSV", "x.csv", "list.csv", LIST),
-        ("requirements in text", "x.txt", "list.txt", LIST),
-        ("description of an FMU", "x.xml", "fmi2.xml fmi3.xml", described_fmu),
-        ("results of a run", "bad/results.json", "good/results.json", REPORT, 3),
-        (
-            "results that are compared",
-            "bad/results.json",
-            "good/results.json",
-            command("compare -v good bad"),
-            3,
-        ),
-        (
-            "results of the last run",
-            "last/latest/results.json",
-            "good/results.json",
-            command("run -v --lf --dry-run -o last stop.yaml"),
-            3,
-        ),
-        (
-            "accepted baseline",
-            "bad/results.json",
-            "good/results.json",
-            function(compared_baseline, ValueError, OSError),
-            3,
-        ),
-        ("manifest", "runs/one/manifest.json", "good/manifest.json", command("open runs"), 4),
-        ("entry of the index", "runs/one/index-entry.json", "good/index-entry.json", command("open runs"), 4),
-        (
-            "result of a sweep",
-            "sweep/results.json",
-            "swept/results.json",
-            command("report sweep --format md,csv -o out"),
-            3,
-        ),
-        ("manifest of a sweep", "sweep/manifest.json", "swept/manifest.json", command("open ."), 4),
-        (
-            "result of a validation",
-            "validation.json",
-            "valid/validation.json",
-            command("check uses-validation.yaml"),
-        ),
-        (
-            "result of a validation that is used",
-            "x.json",
-            "valid/validation.json",
-            function(validation.read_validation, ValueError, OSError),
-        ),
-        ("recording in CSV", "x.csv", "short.csv", EVALUATE, 3),
-        (
-            "recording in Parquet",
-            "x.parquet",
-            "good/recordings/stop.parquet",
-            command("compare -v x.parquet good/recordings/stop.parquet"),
-        ),
-        (
-            "recording of a run",
-            "bad/recordings/stop.parquet",
-            "good/recordings/stop.parquet",
-            command("report bad --format html -o out"),
-            8,
-        ),
-        *(
-            (
-                f"recording in {name}",
-                f"x{FORMATS[name].suffix}",
-                f"short{FORMATS[name].suffix}",
-                function(read_contents, UnreadableError, OSError),
-                12,
-            )
-            for name in ("mdf", "tdms", "mat", "parquet")
-        ),
-    )
+MAPS = f"{LIBRARY}/channel_maps/*.yaml map.yaml"
+ROWS = (
+    ("scenario", "x.yaml", "scenarios/*-*[0-9].yaml full.yaml outside.yaml", CHECK),
+    ("sweep", "x.sweep.yaml", "scenarios/*.sweep.yaml", CHECK),
+    ("series", "x.series.yaml", "scenarios/*.series.yaml", CHECK),
+    *(
+        (f"{name} part", "part.yaml", f"{LIBRARY}/{folder}/*.yaml", command(f"check uses-{name}.yaml"))
+        for name, (folder, _) in PARTS.items()
+    ),
+    (
+        "controller outside",
+        "part.yaml",
+        "wsp.yaml fmu.yaml socket.yaml",
+        command("check uses-controller.yaml"),
+    ),
+    ("bench recipe", "x.yaml", f"{LIBRARY}/benches/*.yaml", function(bench.load_bench)),
+    ("channel map", "x.yaml", MAPS, command("evaluate -v --list stop.csv --map {}")),
+    ("validation", "x.validation.yaml", "plan.validation.yaml", function(series_plans.load_validation)),
+    ("requirements in YAML", "x.yaml", "list.yaml", LIST),
+    ("requirements in CSV", "x.csv", "list.csv", LIST),
+    ("requirements in text", "x.txt", "list.txt", LIST),
+    ("description of an FMU", "x.xml", "fmi2.xml fmi3.xml", described_fmu),
+    ("results of a run", "bad/results.json", RUN, REPORT, 3),
+    ("results that are compared", "bad/results.json", RUN, command("compare -v good bad"), 3),
+    ("last run", "last/latest/results.json", RUN, command("run -v --lf --dry-run -o last stop.yaml"), 3),
+    ("accepted baseline", "bad/results.json", RUN, BASELINE, 3),
+    ("manifest", "runs/one/manifest.json", "good/manifest.json", command("open runs"), 4),
+    ("entry of the index", "runs/one/index-entry.json", "good/index-entry.json", command("open runs"), 4),
+    ("result of a sweep", "sweep/results.json", SWEEP, command("report sweep --format md,csv -o out"), 3),
+    ("manifest of a sweep", "sweep/manifest.json", "swept/manifest.json", command("open ."), 4),
+    ("result of a validation", "validation.json", VALID, command("check uses-validation.yaml")),
+    ("validation that is used", "x.json", VALID, USED_VALIDATION),
+    ("recording in CSV", "x.csv", "short.csv", EVALUATE, 3),
+    ("recording in Parquet", "x.parquet", RECORD, command(f"compare -v x.parquet {RECORD}")),
+    (
+        "recording of a run",
+        "bad/recordings/stop.parquet",
+        RECORD,
+        command("report bad --format html -o out"),
+        8,
+    ),
+    *(
+        (f"recording in {name}", f"x{FORMATS[name].suffix}", f"short{FORMATS[name].suffix}", CONTENTS, 12)
+        for name in ("mdf", "tdms", "mat", "parquet")
+    ),
 )
+KINDS = tuple(Kind(*row) for row in ROWS)
 
 FOUND = (
     ("validation", "a.parquet", "x" * 300),
@@ -458,21 +403,13 @@ FILES = {
     "socket.yaml": f"{CONTROLLER}connect: tcp://127.0.0.1:5025\ntime_limit: 1 s\n",
     "uses-fmu.yaml": HEAD + "controller: fmu.yaml\n",
     "uses-validation.yaml": HEAD + "validated: validation.json\n",
-    "two.sweep.yaml": (
-        "schema: uictest/scenario/1\nname: two\nextends: stop.yaml\n"
-        "vary: {matrix: {brake.command: [80 %, 90 %]}}\n"
-    ),
-    "map.yaml": (
-        "schema: uictest/channel-map/1\nname: own\nextends: common-names\n"
-        "channels: {speed: {source: [v, speed], unit: km/h, scale: 1, sign: -1}}\n"
-    ),
-    "plan.validation.yaml": (
-        f"{VALIDATION}  - {{scenario: stop.yaml, recordings: [a.parquet, b.parquet], set: {{seed: 2}},"
-        " repeat: 2, tuned: true}\n"
-    ),
-    "one.validation.yaml": (
-        f"{VALIDATION}  - {{scenario: stop.yaml, recordings: [good/recordings/stop.parquet]}}\n"
-    ),
+    "two.sweep.yaml": "schema: uictest/scenario/1\nname: two\nextends: stop.yaml\n"
+    "vary: {matrix: {brake.command: [80 %, 90 %]}}\n",
+    "map.yaml": "schema: uictest/channel-map/1\nname: own\nextends: common-names\n"
+    "channels: {speed: {source: [v, speed], unit: km/h, scale: 1, sign: -1}}\n",
+    "plan.validation.yaml": f"{VALIDATION}  - {{scenario: stop.yaml, recordings: [a.parquet, b.parquet],"
+    " set: {seed: 2}, repeat: 2, tuned: true}\n",
+    "one.validation.yaml": f"{VALIDATION}  - {{scenario: stop.yaml, recordings: [{RECORD}]}}\n",
     "list.yaml": "- R-1\n- {id: R-2, title: x}\n",
     "list.csv": "id,title\nR-1,x\nR-2,y\n",
     "list.txt": "R-1  # first\nR-2\n",
@@ -504,17 +441,10 @@ def _variables(fmi):
 
 def _small_recording():
     time = np.arange(200) * 0.01
-    channels = {
-        "time": time,
-        "speed": 5.0 - 2.0 * time,
-        "wheel_speed_1": 5.0 - 2.0 * time,
-        "tank_pressure_1": 3.8e5 * time,
-    }
-    return Recording(
-        channels,
-        {"time": "s", "speed": "m/s", "wheel_speed_1": "m/s", "tank_pressure_1": "Pa"},
-        {"case": "small"},
-    )
+    speed = 5.0 - 2.0 * time
+    channels = {"time": time, "speed": speed, "wheel_speed_1": speed, "tank_pressure_1": 3.8e5 * time}
+    units = {"time": "s", "speed": "m/s", "wheel_speed_1": "m/s", "tank_pressure_1": "Pa"}
+    return Recording(channels, units, {"case": "small"})
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -589,13 +519,14 @@ def test_what_was_found_is_no_internal_error(name, valid, damaged):
 
 @pytest.mark.parametrize("kind", [each for each in KINDS if each.form], ids=lambda kind: kind.name)
 def test_other_values_are_no_internal_error(kind):
-    trees = [READ_FORM[kind.form](content) for content in _valid_files(kind)]
+    read, written = FORMS[kind.form]
+    trees = [read(content) for content in _valid_files(kind)]
 
     @settings(_checked, max_examples=max(EXAMPLES // kind.cost, 1))
     @given(st.integers(0, len(trees) - 1), damages)
     def check(number, wanted):
         try:
-            content = WRITTEN_FORM[kind.form](damaged(trees[number], wanted))
+            content = written(damaged(trees[number], wanted))
         except (pa.ArrowException, TypeError, ValueError, LookupError, OverflowError):
             return  # the damage cannot be written in this form
         _read(kind, content)

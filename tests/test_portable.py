@@ -25,10 +25,8 @@ name: study
 extends: stop.yaml
 vary: {ranges: {initial_speed: {first: 20 km/h, last: 30 km/h, count: 6}}}
 """
-STATED = [
-    f"--set={each}"
-    for each in ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
-]
+STATES = ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
+STATED = [f"--set={state}" for state in STATES]
 COMMANDS = [
     ["check", "."],
     ["run", "stop.yaml", "-o", "runs", "--record=all", "--report=csv,html,junit,md,xlsx"],
@@ -58,19 +56,17 @@ print("codes", codes)
 RESTRICTED = f"import sys; sys.path.append({str(TESTS)!r}); import without_posix; without_posix.restrict()\n"
 
 
+def run(place, *arguments, **options):
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=place, capture_output=True, text=True, check=False, **options)
+
+
 def done_in(place, preparation):
     """Run the commands in a folder of their own; return what they print."""
     place.mkdir()
     for name, text in {"stop": STOP, "study.sweep": SWEEP}.items():
         (place / f"{name}.yaml").write_text(text, "utf-8")
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", preparation + DRIVER],
-        cwd=place,
-        input=json.dumps(COMMANDS),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run(place, "-P", "-c", preparation + DRIVER, input=json.dumps(COMMANDS))
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -102,15 +98,13 @@ def test_without_posix_the_main_commands_give_the_same(tmp_path):
     assert (latest.with_name(latest.read_text("utf-8").strip()) / "index.html").is_file()
 
 
-PROGRAM = [sys.executable, "-P", str(TESTS / "without_posix.py"), "uictest"]
+PROGRAM = str(TESTS / "without_posix.py")
 
 
 def test_a_controller_from_outside_is_refused_in_one_sentence(tmp_path):
     (tmp_path / "wsp.py").write_text("class Wsp: pass")
     (tmp_path / "stop.yaml").write_text(STOP + "controller: {python: wsp.py, class: Wsp}\n")
-    done = subprocess.run(
-        [*PROGRAM, "run", "stop.yaml"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = run(tmp_path, "-P", PROGRAM, "uictest", "run", "stop.yaml")
     assert done.returncode == ExitCode.ERROR
     assert done.stdout.count("needs Linux: on Windows install and run uictest in the Windows Subsystem") == 1
     assert "Traceback" not in done.stdout + done.stderr
@@ -137,12 +131,5 @@ def test_what_windows_lacks_is_taken_away(tmp_path, code):
     package.mkdir()
     (package / "__init__.py").touch()
     (package / "tried.py").write_text(code)
-    done = subprocess.run(
-        [sys.executable, str(TESTS / "without_posix.py"), "uictest.tried"],
-        cwd=tmp_path,
-        env={"PYTHONPATH": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run(tmp_path, PROGRAM, "uictest.tried", env={"PYTHONPATH": str(tmp_path)})
     assert done.stderr.splitlines()[-1].startswith(REFUSED[code])

@@ -22,45 +22,45 @@ class Addition(Record):
     mode: int
 
 
-def test_a_layout_has_the_fields_of_its_class_those_of_its_bases_first():
+def test_a_layout_has_the_fields_of_its_class_as_attributes_those_of_its_bases_first():
     layout = layout_of(Car)
     assert list(layout.names) == list(fields_of(Car)) == ["speed", "cycle", "speeds"]
     assert [layout[name].base for name in layout.names] == [np.float64, np.int64, np.float64]
     assert layout["speeds"].shape == (3,)
-
-
-def test_fields_are_attributes():
     car = np.zeros(1, layout_of(Car))[0]
     car.speed = 3.0
     car.speeds[1] = 4.0
     assert (car["speed"], car["speeds"].tolist()) == (3.0, [0.0, 4.0, 0.0])
+    assert {name: value.key for name, value in scenario_values(Car).items()} == {"speed": "initial_speed"}
 
 
-def test_additions_share_their_fields():
-    class Another(Record):
-        mode: int
+class Another(Record):
+    mode: int
 
+
+class Cousin(Frame):
+    mode: int
+
+
+class Thief(Record):
+    cycle: int
+
+
+class Other(Record):
+    mode: float
+
+
+def test_additions_share_their_fields_and_one_of_the_record_only_when_both_inherit_it():
     assert layout_of(Frame, Addition, Another).names == ("speed", "cycle", "mode")
-
-
-def test_an_addition_shares_a_field_of_the_record_only_when_both_inherit_it():
-    class Cousin(Frame):
-        mode: int
-
-    class Thief(Record):
-        cycle: int
-
     assert layout_of(Car, Cousin).names == ("speed", "cycle", "speeds", "mode")
-    with pytest.raises(TypeError, match="Thief: 'cycle' is a field of the rig or of another module already"):
-        layout_of(Car, Thief)
 
 
-def test_additions_that_disagree_are_rejected():
-    class Other(Record):
-        mode: float
-
-    with pytest.raises(TypeError, match="Other: 'mode' is a field of the rig or of another module already"):
-        layout_of(Car, Addition, Other)
+@pytest.mark.parametrize(
+    ("additions", "named"), [([Thief], "Thief: 'cycle'"), ([Addition, Other], "Other: 'mode'")]
+)
+def test_additions_that_take_a_field_or_disagree_are_rejected(additions, named):
+    with pytest.raises(TypeError, match=f"{named} is a field of the rig or of another module already"):
+        layout_of(Car, *additions)
 
 
 @pytest.mark.parametrize("kind", [str, bool, list[float], Annotated[float, 3]])
@@ -70,10 +70,6 @@ def test_a_field_of_another_kind_is_rejected(kind):
 
     with pytest.raises(TypeError, match="a field is a float, an int or a table"):
         layout_of(Wrong)
-
-
-def test_the_keys_of_fields_are_those_declared():
-    assert {name: value.key for name, value in scenario_values(Car).items()} == {"speed": "initial_speed"}
 
 
 @pytest.mark.slow

@@ -1,14 +1,17 @@
-"""A version, stated in one place; the last release, named alike wherever a user copies it from."""
+"""A version, stated in one place; the last release, named alike everywhere; what it was tested with."""
 
 import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from importlib import metadata
 from pathlib import Path
 
 import pytest
 import yaml
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 from packaging.version import Version
 
 import uictest
@@ -88,3 +91,33 @@ def test_it_works_in_a_clean_environment(distributions, tmp_path, python, suffix
     assert "var uPlot=" in page  # which comes with another package
     shown = subprocess.run([programs / "uictest", "--version"], capture_output=True, text=True, check=True)
     assert shown.stdout == f"uictest {VERSION}\n"
+
+
+CONSTRAINTS = Path(uictest.__file__).with_name("constraints.txt")
+_LINE = re.compile(r"([a-z0-9-]+)==([0-9][0-9a-z.+!]*)")
+
+
+def test_the_constraints_name_versions_and_nothing_else():
+    """No path of a machine, no host of a registry."""
+    lines = CONSTRAINTS.read_text("utf-8").splitlines()
+    assert all(_LINE.fullmatch(line) for line in lines)
+    names = [line.partition("==")[0] for line in lines]
+    assert names == sorted(set(names))
+
+
+def test_the_constraints_hold_a_version_of_every_package_that_is_allowed():
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    of_use = [each for name in extras if name not in ("dev", "docs") for each in extras[name]]
+    tested = dict(line.split("==") for line in CONSTRAINTS.read_text("utf-8").splitlines())
+    for text in (*project["dependencies"], *of_use):
+        needed = Requirement(text)
+        assert needed.specifier.contains(tested[canonicalize_name(needed.name)]), text
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("versions", ["oldest", "newest"])
+def test_the_package_works_with_other_versions(versions):
+    """Downloads every package; takes some ten minutes."""
+    command = [sys.executable, REPOSITORY / "scripts" / "try_versions.py", versions]
+    assert subprocess.run(command, check=False).returncode == 0

@@ -71,7 +71,7 @@ def test_numbers_are_numbers_and_texts_are_as_written(results):
     assert frame["braking_distance_m"].dtype == float
 
 
-def test_units_stand_beside_the_columns(results):
+def test_units_stand_beside_the_columns_and_the_index_tells_rows_apart(results):
     units = results.frame().attrs["units"]
     assert units["braking_distance_m"] == units["braking_distance_m_highest"] == "m"
     assert "outcome" not in units
@@ -79,21 +79,28 @@ def test_units_stand_beside_the_columns(results):
     for name, column in {**measures.STOP_COLUMNS, **measures.WHEELSET_COLUMNS}.items():
         names = (name, f"{name}_lowest")
         assert column_units(names) == dict.fromkeys(names, column.unit)
-
-
-def test_the_index_tells_rows_apart(results):
     for frame in (results.frame(), results.wheelsets(), results.criteria(), results.repeats()):
         assert frame.index.is_unique
     assert list(results.wheelsets().loc["many"].index) == [1, 2, 3, 4]
     assert list(results.repeats().index.get_level_values("seed")) == [0, 1, 2]
+    assert not results.met
+    assert results.tally == "3 cases: 1 pass, 2 unexpected pass; 2 not as expected"
+    assert repr(results).splitlines()[0] == results.tally
+    assert repr(results).splitlines()[1].startswith("pass many outcome=pass")
 
 
-def test_a_table_that_is_not_there_is_named(write):
-    results = uictest.run(write())
+def test_a_table_that_is_not_there_is_named_and_one_of_a_series_without_criteria_empty(write):
+    path = write("wet")
+    results = uictest.run(path)
     with pytest.raises(KeyError, match="no table 'repeats' in this run; accepted: criteria, summary"):
         results.repeats()
     with pytest.raises(KeyError, match="did you mean 'criteria'"):
         results.table("criterias")
+    write("dry", rail="{condition: dry}")
+    path = path.with_name("free.series.yaml")
+    path.write_text("schema: uictest/series/1\nname: free\ndry: dry.yaml\nwet: wet.yaml\ncriteria: []\n")
+    table = uictest.run(path).table("series-criteria")
+    assert (len(table), table.index.names) == (0, ["series", "criterion"])
 
 
 def test_cases_by_place_by_slice_and_by_id(results):
@@ -110,32 +117,14 @@ def test_cases_by_place_by_slice_and_by_id(results):
     assert len(results.recording("one[friction=0.06]")) > 100
 
 
-def test_met_and_tally(results):
-    assert not results.met
-    assert results.tally == "3 cases: 1 pass, 2 unexpected pass; 2 not as expected"
-    assert repr(results).splitlines()[0] == results.tally
-    assert repr(results).splitlines()[1].startswith("pass many outcome=pass")
-
-
-class _Page(HTMLParser):
-    def __init__(self):
-        super().__init__()
-        self.tags = set()
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.add(tag)
-
-
-def test_the_table_for_notebooks_escapes_what_users_wrote():
+def test_the_table_for_notebooks_escapes_what_users_wrote_and_has_what_failed_first():
     hostile = uictest.CaseResult(HOSTILE, "a.yaml", {}, PASS, "fail", reason=HOSTILE)
-    page = _Page()
-    text = uictest.Results(report.RunContent("run", [hostile]))._repr_html_()
+    results, tags = uictest.Results(report.RunContent("run", [hostile])), set()
+    text, page = results._repr_html_(), HTMLParser()
+    page.handle_starttag = lambda tag, attributes: tags.add(tag)
     page.feed(text)
-    assert page.tags <= {"p", "table", "thead", "tbody", "tr", "th", "td"}
-    assert "\x1b" not in text + repr(uictest.Results(report.RunContent("run", [hostile])))
-
-
-def test_the_table_for_notebooks_has_what_failed_first_and_an_end():
+    assert tags <= {"p", "table", "thead", "tbody", "tr", "th", "td"}
+    assert "\x1b" not in text + repr(results)
     many = [uictest.CaseResult(f"case-{n}", "a.yaml", {}, PASS, "pass") for n in range(200)]
     failed = uictest.CaseResult("failed", "a.yaml", {}, PASS, "fail", reason="locked")
     text = uictest.Results(report.RunContent("run", [*many, failed]))._repr_html_()
@@ -149,11 +138,3 @@ def test_saving_in_an_unknown_format_names_the_nearest(results, saved):
         results.save(formats=["xslx"])
     assert not Path("reports").exists()
     assert (saved / "report.xlsx").is_file()
-
-
-def test_a_table_of_a_series_without_criteria_is_empty(write):
-    write("dry", rail="{condition: dry}")
-    path = write("wet").with_name("free.series.yaml")
-    path.write_text("schema: uictest/series/1\nname: free\ndry: dry.yaml\nwet: wet.yaml\ncriteria: []\n")
-    table = uictest.run(path).table("series-criteria")
-    assert (len(table), table.index.names) == (0, ["series", "criterion"])

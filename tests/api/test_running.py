@@ -6,9 +6,11 @@ import signal
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import uictest
+from uictest.controllers import ControllerError
 from uictest.core.files import latest_run
 from uictest.judging import evaluation
 from uictest.report import read_run
@@ -48,16 +50,6 @@ def test_digits_and_files_are_those_of_the_command(write, command):
     assert {"recordings/stop[friction=0.06].parquet", "summary.csv", "index.html"} <= set(ours)
 
 
-def test_nothing_is_written_or_printed(write, workplace, capfd):
-    path = write()
-    before = sorted(workplace.rglob("*"))
-    results = uictest.run(path, set=AXIS)
-    uictest.simulate(path)
-    assert [result.id for result in results] == ["stop[friction=0.06]", "stop[friction=0.1]"]
-    assert sorted(workplace.rglob("*")) == before
-    assert capfd.readouterr() == ("", "")
-
-
 def test_cases_run_as_their_files_do_and_threads_may_run_side_by_side(write):
     path = write()
     cases = uictest.load(path, set=AXIS, seed=2)
@@ -70,12 +62,24 @@ def test_cases_run_as_their_files_do_and_threads_may_run_side_by_side(write):
     assert found == [figures(results)] * 2
 
 
+def test_nothing_is_written_or_printed(write, workplace, capfd):
+    path = write()
+    before = sorted(workplace.rglob("*"))
+    results = uictest.run(path, set=AXIS)
+    uictest.simulate(path)
+    assert [result.id for result in results] == ["stop[friction=0.06]", "stop[friction=0.1]"]
+    assert sorted(workplace.rglob("*")) == before
+    assert capfd.readouterr() == ("", "")
+
+
 def test_the_page_of_loaded_cases_offers_no_command_that_would_run_others(write):
     path = write()
-    by_file = uictest.run(path, seed=2, record="all", output="out").folder
-    loaded = uictest.run(uictest.load(path, seed=2), record="all", output="out").folder
-    assert "--seed 2 -k stop" in (by_file / "index.html").read_text()
-    assert "Copy command" not in (loaded / "index.html").read_text()
+    by_file, loaded = (
+        (uictest.run(what, record="all", output="out", **seed).folder / "index.html").read_text()
+        for what, seed in ((path, {"seed": 2}), (uictest.load(path, seed=2), {}))
+    )
+    assert "--seed 2 -k stop" in by_file
+    assert "Copy command" not in loaded
 
 
 def test_recordings_are_those_of_memory_and_found_from_another_working_folder(write, tmp_path, monkeypatch):
@@ -95,13 +99,25 @@ def test_recordings_are_those_of_memory_and_found_from_another_working_folder(wr
         assert (each.save() / "recordings" / "stop.parquet").is_file()
 
 
-def test_saving_later_writes_what_output_writes(write, monkeypatch):
+def test_reports_are_read_back_and_saving_later_writes_what_output_writes(write, monkeypatch):
     monkeypatch.setattr("uictest.api.running.command_words", lambda *_, **__: ["run"])
     path = write(text=FAILING)
-    at_once = uictest.run(path, set=AXIS, output="out").folder
+    results = uictest.run(path, set=AXIS, output="out")
     later = uictest.run(path, set=AXIS).save("out")
-    assert contents(at_once) == contents(later)
+    assert contents(results.folder) == contents(later)
     assert contents(uictest.read_results(later).save("out")) == contents(later)
+    for location in (results.folder, results.folder / "results.json", Path("out/latest")):
+        again = uictest.read_results(location)
+        assert figures(again) == figures(results)
+        assert again.frame().equals(results.frame())
+        name = results[0].id
+        assert again.recording(name).units == results.recording(name).units
+    assert figures(read_run(results.folder).results) == figures(results)
+    Path("out/results.json").write_text("[]")
+    with pytest.raises(ValueError, match="not the results of a run"):
+        uictest.read_results("out/results.json")
+    with pytest.raises(FileNotFoundError):
+        uictest.read_results("nowhere")
 
 
 @pytest.mark.parametrize(
@@ -175,14 +191,25 @@ def test_cases_are_not_changed_nor_mixed_with_files(write):
         uictest.run([*cases, *cases])
 
 
-def test_an_interrupt_is_raised(write, monkeypatch):
-    path = write()
-    monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
+def test_an_interrupt_is_raised_and_what_is_finished_then_is_reported(write, monkeypatch):
+    path, run_cases = write(), campaign.run_cases
+
+    def cut_short(cases, *settings, **options):
+        done = run_cases(cases[:finished], *settings, **options)
+        done.interrupted = True
+        return done
+
+    monkeypatch.setattr(campaign, "run_cases", cut_short)
+    finished = 0
     with pytest.raises(KeyboardInterrupt):
         uictest.run(path)
     with pytest.raises(KeyboardInterrupt):
         uictest.run(path, output="reports")
     assert not Path("reports").exists()
+    finished = 1
+    with pytest.raises(KeyboardInterrupt):
+        uictest.run(path, set=AXIS, output="out")
+    assert [result.id for result in uictest.read_results("out/latest")] == ["stop[friction=0.06]"]
 
 
 def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
@@ -204,20 +231,6 @@ def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
     assert uictest.run(path).met
 
 
-def test_what_is_finished_when_a_run_is_interrupted_is_reported(write, monkeypatch):
-    path, run_cases = write(), campaign.run_cases
-
-    def cut_short(cases, *settings, **options):
-        done = run_cases(cases[:1], *settings, **options)
-        done.interrupted = True
-        return done
-
-    monkeypatch.setattr(campaign, "run_cases", cut_short)
-    with pytest.raises(KeyboardInterrupt):
-        uictest.run(path, set=AXIS, output="out")
-    assert [result.id for result in uictest.read_results("out/latest")] == ["stop[friction=0.06]"]
-
-
 def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
     def crash(stop, *_):
         result = evaluation.error_result(stop.case, "ZeroDivisionError: no wheel load")
@@ -229,17 +242,63 @@ def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
     assert math.isnan(results.frame().loc["stop", "braking_distance_m"])
 
 
-def test_reports_are_read_back(write):
-    results = uictest.run(write(text=FAILING), output="out")
-    for place in (results.folder, results.folder / "results.json", Path("out/latest")):
-        again = uictest.read_results(place)
-        assert figures(again) == figures(results)
-        assert again.frame().equals(results.frame())
-        recorded = again.recording("stop")
-        assert recorded.units == results.recording("stop").units
-    assert figures(read_run(results.folder).results) == figures(results)
-    with pytest.raises(ValueError, match="not the results of a run"):
-        (Path("out") / "results.json").write_text("[]")
-        uictest.read_results("out/results.json")
-    with pytest.raises(FileNotFoundError):
-        uictest.read_results("nowhere")
+def test_a_recording_is_a_frame_and_a_figure_with_a_panel_for_each_unit(write):
+    recording = uictest.simulate(write(), record=200)
+    assert np.diff(recording["time"])[:100] == pytest.approx(0.005)
+    frame = recording.frame()
+    assert frame.index.name == "time"
+    assert [frame.index.name, *frame.columns] == list(recording.channels)
+    for name in frame.columns:
+        assert np.array_equal(frame[name], recording[name], equal_nan=True)
+    assert frame.attrs["units"] == recording.units
+    assert frame.attrs["metadata"]["case"] == "stop"
+    figure = recording.plot(["speed", "wheel_speed_*", "tank_pressure_1"])
+    wheels = [f"wheel_speed_{n}" for n in range(1, 5)]
+    assert [each.name for each in figure.data] == ["speed", *wheels, "tank_pressure_1"]
+    assert (figure.layout.yaxis.title.text, figure.layout.yaxis2.title.text) == ("m/s", "Pa")
+    assert figure.layout.xaxis2.title.text == "time, s"
+    assert np.array_equal(figure.data[0].y, recording["speed"])
+    looks = {(each.line.color, each.line.dash) for each in figure.data[:5]}
+    assert len(looks) == len({dash for _, dash in looks}) + 1 == 5  # train and wheelset 1 differ by colour
+    with pytest.raises(KeyError, match=r"no channel 'wheel_sped_\*' in this recording of distance, speed"):
+        recording.plot(["wheel_sped_*"])
+
+
+def test_set_seed_and_case_choose_the_stop(write):
+    path = write(text="matrix: {rail.friction: [0.06, 0.1]}\n")
+    told = r"the scenario has 2 cases: pass case= one of stop\[friction=0\.06\]"
+    with pytest.raises(ValueError, match=told):
+        uictest.simulate(path)
+    first = uictest.simulate(path, case="stop[friction=0.1]", seed=3)
+    same = uictest.simulate(uictest.load(path, select="0.1")[0], seed=3)
+    other = uictest.simulate(path, set={"rail.friction": 0.1}, seed=4)
+    assert first.frame().equals(same.frame())
+    assert not np.array_equal(first["measured_speed_1"], other["measured_speed_1"])
+
+
+def test_what_applies_to_files_is_rejected_for_a_case_and_a_rate_is_one_that_a_run_can_have(write):
+    (case,) = uictest.load(write())
+    for arguments in ({"set": {"seed": 1}}, {"case": "stop"}, {"trust": ["."]}):
+        with pytest.raises(ValueError, match="apply to files"):
+            uictest.simulate(case, **arguments)
+    for rate in (0, -1, 0.5, 100_001, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match=r"record is .*, expected 1 to 100000 samples per second"):
+            uictest.simulate(case, record=rate)
+
+
+def test_a_controller_that_fails_is_an_error(write):
+    path = write(text="controller: {python: wsp.py, class: Wsp}\n")
+    methods = ("__init__(self, config): pass", "reset(self): pass", "step(self, i): 1 / 0")
+    text = "".join(f"    def {method}\n" for method in methods)
+    Path("scenarios/wsp.py").write_text(f"class Wsp:\n{text}")
+    with pytest.raises(ControllerError, match="ZeroDivisionError"):
+        uictest.simulate(path)
+
+
+def test_a_figure_of_a_train_shows_what_was_recorded():
+    time = np.arange(3.0)
+    channels = {"time": time, "speed": 3.0 - time, "slide_1": np.full(3, np.nan)}
+    recording = uictest.Recording(channels, {"time": "s", "speed": "m/s", "slide_1": "1"})
+    assert [each.name for each in recording.plot().data] == ["speed"]
+    other = uictest.Recording({"time": time, "voltage": time}, {"time": "s", "voltage": "V"})
+    assert [each.name for each in other.plot().data] == ["voltage"]

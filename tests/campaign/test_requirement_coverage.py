@@ -4,16 +4,9 @@ from uictest.plans.scenario import load, named_requirements
 from uictest.plans.series import load_series
 from uictest.running.campaign import CoveredRequirement, Verifier, requirement_coverage
 
-PROFILE = """\
-criteria:
-  name: own
-  criteria:
-    - id: short
-      layer: requirement
-      measure: braking_distance
-      upper: 900 m
-      applies: {rail_condition: [dry]}
-      requirements: [BR-2]
+SHORT = "id: short, layer: requirement, measure: braking_distance, upper: 900 m"
+PROFILE = f"""\
+criteria: {{name: own, criteria: [{{{SHORT}, applies: {{rail_condition: [dry]}}, requirements: [BR-2]}}]}}
 """
 
 

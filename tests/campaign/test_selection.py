@@ -80,19 +80,24 @@ def _ids(cases):
 
 
 @pytest.mark.parametrize(
-    ("expression", "ids"),
+    ("select", "expression", "ids"),
     [
-        ("120", ["dry-120", "slip-120[friction=0.10]"]),
-        ("DRY", ["dry-120"]),
-        ("stops", ["dry-120"]),
-        ("long", ["slide-80"]),
-        ("slip and not long", ["slip-120[friction=0.10]"]),
-        ("friction=0.10]", ["slip-120[friction=0.10]"]),
-        ("snow", []),
+        # A word is sought in id, file name and tags.
+        (by_expression, "120", ["dry-120", "slip-120[friction=0.10]"]),
+        (by_expression, "DRY", ["dry-120"]),
+        (by_expression, "stops", ["dry-120"]),
+        (by_expression, "long", ["slide-80"]),
+        (by_expression, "slip and not long", ["slip-120[friction=0.10]"]),
+        (by_expression, "friction=0.10]", ["slip-120[friction=0.10]"]),
+        (by_expression, "snow", []),
+        # A tag is matched whole.
+        (by_tag, "slip", ["slip-120[friction=0.10]", "slide-80"]),
+        (by_tag, "sli", []),
+        (by_tag, "slip and not long", ["slip-120[friction=0.10]"]),
     ],
 )
-def test_a_word_is_sought_in_id_file_name_and_tags(cases, expression, ids):
-    assert _ids(by_expression(cases, expression)) == ids
+def test_a_word_is_sought_in_names_and_tags_and_a_tag_matched_whole(cases, select, expression, ids):
+    assert _ids(select(cases, expression)) == ids
 
 
 @pytest.mark.parametrize(
@@ -118,18 +123,6 @@ def test_a_value_at_the_end_of_a_word_is_whole_but_for_its_unit(expression, numb
         make_case(name, file="t.yaml") for name in (*trains, "x[leak=1e-8m3sPa,controller=slip-band,car=2]")
     ]
     assert by_expression(cases, expression) == [cases[number] for number in numbers]
-
-
-@pytest.mark.parametrize(
-    ("tag", "ids"),
-    [
-        ("slip", ["slip-120[friction=0.10]", "slide-80"]),
-        ("sli", []),
-        ("slip and not long", ["slip-120[friction=0.10]"]),
-    ],
-)
-def test_a_tag_is_matched_whole(cases, tag, ids):
-    assert _ids(by_tag(cases, tag)) == ids
 
 
 def test_ids_keep_the_order_of_the_cases_and_a_malformed_expression_is_an_error_without_any(cases):

@@ -135,13 +135,18 @@ def test_a_train_that_fails_leaves_those_beside_it(cases, monkeypatch):
         assert [stop.outcome for stop in result.repeats.stops] == ["pass", "error", "pass"]
 
 
-def test_a_result_says_where_its_car_runs_and_what_pulled(cases):
+def test_a_result_says_where_its_car_runs_and_what_pulled_and_an_error_is_one_of_every_car(
+    cases, monkeypatch
+):
     first, second, third = run_cases(cases(TRAIN), RunSettings()).whole()
     assert [each.train.label for each in (first, second, third)] == ["car 1 of 3", "car 2 of 3", "car 3 of 3"]
     assert (first.train.ahead, third.train.behind) == (None, None)
     assert first.train.behind == second.train.ahead
     assert second.train.behind == third.train.ahead
     assert first.train.behind.largest_push_n > 1000.0  # the leading car brakes twice as hard
+    monkeypatch.setattr(rig, "simulate_cars", lambda *arguments: 1 / 0)
+    results = run_cases(cases(TRAIN), RunSettings()).whole()
+    assert [(each.outcome, each.train.car) for each in results] == [("error", 1), ("error", 2), ("error", 3)]
 
 
 def test_repeats_keep_the_largest_forces_of_all_stops(cases):
@@ -165,12 +170,6 @@ def test_the_command_travels_along_a_pipe(cases):
         channels = [stop.recording.channels for stop in stops]
         one, other = (float(each["time"][each["brake_line_pressure"] > 1e4][0]) for each in channels)
         assert other - one == pytest.approx(car * 26.4 / 100.0, abs=0.011)
-
-
-def test_an_error_of_a_train_is_one_of_each_of_its_cars(cases, monkeypatch):
-    monkeypatch.setattr(rig, "simulate_cars", lambda *arguments: 1 / 0)
-    results = run_cases(cases(TRAIN), RunSettings()).whole()
-    assert [(each.outcome, each.train.car) for each in results] == [("error", 1), ("error", 2), ("error", 3)]
 
 
 def test_what_runs_a_car_alone_refuses_one_of_a_train(cases):

@@ -18,14 +18,8 @@ _JENKINS_RUN = re.compile(r"script: '\.venv/bin/(uictest run [^']*)'")
 def bash(script, **environment):
     """Run a script as GitHub and GitLab do: it ends at the first command that fails."""
     command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", script]
-    return subprocess.run(
-        command,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=HANGING,
-        env={**os.environ, **environment},
-    )
+    options = {"capture_output": True, "text": True, "check": False, "timeout": HANGING}
+    return subprocess.run(command, **options, env={**os.environ, **environment})
 
 
 def run_step():

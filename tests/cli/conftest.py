@@ -1,5 +1,6 @@
 """The program as its users meet it: in a folder of its own, in this process or in one of its own."""
 
+import json
 import shutil
 import signal
 import subprocess
@@ -63,6 +64,16 @@ def rolling_train(end=10.5, **changes):
     channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
     units = {name: "s" if name == "time" else "m/s" for name in channels}
     return Recording(channels, units, {"brake_command_time": "0 s"})
+
+
+def results_of(folder="reports/latest"):
+    """The document of a run or a sweep."""
+    return json.loads(Path(folder, "results.json").read_text("utf-8"))
+
+
+def manifest_of(folder="reports/latest"):
+    """The manifest of a run or a sweep."""
+    return json.loads(Path(folder, "manifest.json").read_text("utf-8"))
 
 
 SQUEEZING, RELEASING = FittedLine(0.042, -1800.0), FittedLine(0.0475, -1650.0)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import HANGING
+from .conftest import HANGING, results_of
 
 RUN = "run scenarios -v"
 SWEEP = "sweep scenarios/speeds.sweep.yaml"
@@ -94,7 +94,7 @@ def scenarios(scenario):
 
 def reports_are_whole():
     """Whether a run wrote its results, and no message into a file opened in the place of a closed stream."""
-    document = json.loads(Path("reports/latest/results.json").read_text())
+    document = results_of()
     texts = [path.read_bytes() for path in Path("reports/latest/").rglob("*") if path.is_file()]
     assert len(texts) > 5
     whole = document["complete"] and [case["id"] for case in document["cases"]] == ["stop"]

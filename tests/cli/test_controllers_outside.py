@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from .conftest import HANGING
+from .conftest import HANGING, manifest_of, results_of
 
 TWIN = Path(__file__).parents[1] / "sweeps" / "controllers" / "slip_band.py"
 """The built-in slip-band as a controller from outside."""
@@ -64,7 +64,7 @@ def faults(*names):
 
 
 def cases(folder="reports"):
-    return json.loads(Path(folder, "latest/results.json").read_text("utf-8"))["cases"]
+    return results_of(f"{folder}/latest")["cases"]
 
 
 def test_what_a_controller_does_wrong_is_an_error_of_its_case_and_what_it_prints_is_no_data(process, stop):
@@ -226,9 +226,9 @@ def test_every_report_names_the_program_and_its_version_though_it_tells_it_only_
         assert told in (folder / name).read_text("utf-8"), name
     assert (properties()["controller.sha256"], properties()["controller.version"]) == (digest, "1.2.0")
     assert "controller.told_version" not in properties()
-    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    manifest = manifest_of(folder)
     assert manifest["inputs"]["scenarios/wsp.py"] == digest
-    document = json.loads((folder / "results.json").read_text("utf-8"))
+    document = results_of(folder)
     part = document["parts"][document["cases"][0]["parts"]["controller"]]
     assert part["name"] == "Wsp"
     parameters = {each["key"].removeprefix("controller."): each["value"] for each in part["parameters"]}
@@ -274,14 +274,13 @@ def test_a_result_has_the_digest_that_the_program_was_given_though_it_failed(
     assert result.get("controller_contract") == (None if fails else 1)
 
 
-def test_a_program_that_contradicts_its_scenario_is_quoted(call, versioned):
+def test_a_program_that_contradicts_its_scenario_is_quoted_and_a_built_in_one_has_no_version(
+    call, versioned, scenario
+):
     answer = call("run", versioned(TELLING, "version: 1.1.9"), "-v")
     assert "part controller: Wsp, version 1.1.9 (the program says 1.2.0), python wsp.py" in answer.out
     told = {"controller.version": "1.1.9", "controller.told_version": "1.2.0"}
     assert properties().items() >= told.items()
-
-
-def test_a_built_in_controller_has_neither_version_nor_digest(call, scenario):
     call("run", scenario("stop"))
     assert {"controller_version", "case_sha256"}.isdisjoint(cases()[0])
 

@@ -8,11 +8,17 @@ from pathlib import Path
 import pytest
 
 from uictest import report
-from uictest.cli import progress as progress_module
+from uictest.cli import run_display
 from uictest.cli.options import Format
 from uictest.cli.output import ExitCode, interactive, of_run
-from uictest.cli.progress import progress
-from uictest.cli.run_display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
+from uictest.cli.run_display import (
+    Annotations,
+    Lines,
+    ResultsDocument,
+    VerdictTable,
+    chosen_display,
+    progress,
+)
 from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import PASS
 from uictest.report import RunContent
@@ -94,15 +100,12 @@ def shown(monkeypatch):
     return show
 
 
-def test_the_table_explains_what_is_not_met_and_a_quiet_one_holds_nothing_else(shown):
+def test_the_table_is_as_wide_as_columns_says_and_explains_what_is_not_met(shown):
+    assert max(map(len, shown(COLUMNS="100", NO_COLOR="1").splitlines())) <= 100
     text = shown(NO_COLOR="1")
     assert "[bold]a" in text
     assert "fail b\n  fail. Expected: pass\n  locked\n" in text
     assert "[bold]a" not in shown(quiet=True)
-
-
-def test_the_table_is_as_wide_as_columns_says(shown):
-    assert max(map(len, shown(COLUMNS="100", NO_COLOR="1").splitlines())) <= 100
 
 
 @pytest.mark.parametrize("unwanted", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
@@ -125,8 +128,8 @@ def beats(monkeypatch):
         with written:
             assert written.wait_for(lambda: any(text in line for line in lines), HANGING)
 
-    monkeypatch.setattr(progress_module, "HEARTBEAT", 0.001)
-    monkeypatch.setattr(progress_module, "message", write)
+    monkeypatch.setattr(run_display, "HEARTBEAT", 0.001)
+    monkeypatch.setattr(run_display, "message", write)
     return lines, wait_for
 
 
@@ -134,7 +137,7 @@ def heartbeats():
     return [thread for thread in threading.enumerate() if thread.name == "heartbeat"]
 
 
-def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(beats):
+def test_where_nobody_watches_there_is_a_sign_of_life_with_the_total_as_it_grows(beats):
     _, wait_for = beats
     with progress(1000, 100, quiet=False, unit="stops") as advance:
         wait_for("uictest: 100 of 1000 stops after ")
@@ -142,9 +145,6 @@ def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(beats):
         wait_for("101 of 1000 stops after")
         wait_for(" s left")
     assert heartbeats() == []
-
-
-def test_a_total_that_grows_is_not_said_to_be_finished(beats):
     lines, wait_for = beats
     with progress(7, quiet=False) as advance:
         advance(0, 2)

@@ -1,6 +1,5 @@
 """Earlier runs: `--baseline` compares, `--lf` selects what failed last, `--keep` removes the oldest."""
 
-import json
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -11,7 +10,7 @@ from uictest.core.recording import Recording
 from uictest.core.recording.formats import writer_of
 from uictest.runs import history
 
-from .conftest import STATED, rolling_train
+from .conftest import STATED, manifest_of, results_of, rolling_train
 
 pytestmark = pytest.mark.usefixtures("made_up")
 DIFFERENT = "tags: [fail]\nexpect: fail\n"
@@ -37,7 +36,7 @@ def junit_suite():
 
 
 def accepted():
-    return [case["id"] for case in json.loads(Path("accepted/results.json").read_text())["cases"]]
+    return [case["id"] for case in results_of("accepted")["cases"]]
 
 
 def test_a_run_like_its_baseline_exits_0_and_every_report_says_what_differs(call, scenario, baseline):
@@ -51,7 +50,7 @@ def test_a_run_like_its_baseline_exits_0_and_every_report_says_what_differs(call
         text = Path("reports/latest", name).read_text()
         assert "2 cases: 1 pass, 1 different from the baseline" in text, name
         assert "1 out of tolerance" in text, name
-    compared = json.loads(Path("reports/latest/results.json").read_text())["baseline"]
+    compared = results_of()["baseline"]
     assert (compared["folder"], compared["agrees"], compared["compared"]) == ("accepted", False, 50)
     assert len(compared["sha256"]) == 64
     (difference,) = compared["differences"]
@@ -138,12 +137,11 @@ def test_accepting_a_selection_keeps_the_other_cases_and_everything_drops_those_
     assert accepted() == ["b", "c"]
 
 
-def test_the_latest_run_as_a_baseline_is_the_one_before(call, scenario, baseline):
+def test_the_latest_run_is_compared_as_the_one_before_and_no_difference_hides_an_error_or_a_missed_case(
+    call, scenario, baseline
+):
     scenario("a", DIFFERENT)
     call("run", "--baseline", "reports/latest", code=1)
-
-
-def test_neither_a_difference_nor_accepting_it_hides_an_error_or_a_missed_case(call, scenario, baseline):
     scenario("a", "tags: [error]\n")
     call("run", "--baseline", baseline, code=3)
     assert junit_suite().get("errors") == "1"
@@ -173,7 +171,7 @@ def evaluate(call, request):
         units = {**train.units, "brake_command": "1"}
         writer_of("csv")(Recording(channels, units, train.metadata), Path("recorded.csv"))
         call(request.param, "recorded.csv", *STATED, code=0 if request.param == "evaluate" else 5)
-        command = json.loads(Path("reports/latest/manifest.json").read_text("utf-8"))["command"]
+        command = manifest_of()["command"]
         assert command[1] == request.param
 
     return run

@@ -9,6 +9,8 @@ import yaml
 
 from uictest.plans import scenario as scenarios
 
+from .conftest import results_of
+
 LOCKED = "locked-wheels"
 NAMED = f"{{fail: [{LOCKED}, total-locked-time, distance-over-reference]}}"
 ANOTHER = ("--set", "controller.cycle_time=20 ms")
@@ -16,7 +18,7 @@ ANOTHER = ("--set", "controller.cycle_time=20 ms")
 
 
 def _case():
-    (case,) = json.loads(Path("reports/latest/results.json").read_text("utf-8"))["cases"]
+    (case,) = results_of()["cases"]
     return case
 
 
@@ -36,8 +38,8 @@ def slipping(workplace):
     return write
 
 
-def test_a_failed_requirement_is_not_hidden_by_an_expected_invalid_test(call, workplace):
-    """The rail recovers, so that the stop is no slip test; a wheelset takes 2.3 MJ where 1.5 are allowed."""
+def test_neither_a_failed_requirement_nor_a_wrong_rig_is_hidden_by_what_is_expected(call, workplace):
+    # The rail recovers, so that the stop is no slip test; a wheelset takes 2.3 MJ where 1.5 are allowed.
     answer = call("run", "cleaned-rail-120", "--set", "controller=slip-band", code=1)
     case = _case()
     assert (case["outcome"], case["test_validity"], case["requirement_status"]) == (
@@ -45,9 +47,6 @@ def test_a_failed_requirement_is_not_hidden_by_an_expected_invalid_test(call, wo
     )
     assert answer.out.startswith("fail cleaned-rail-120 outcome=fail expect=passorinvalid(initial-adhesion")
     assert "wheelset-contact-energy" in answer.out
-
-
-def test_a_wrong_rig_is_not_hidden_by_an_expected_failure(call, workplace):
     call("run", "wsp-bypassed-80", code=0)
     answer = call("run", "wsp-bypassed-80", "--set", "rig.caliper.lever_ratio=3", code=1)
     assert answer.out.startswith("invalid wsp-bypassed-80 outcome=invalid ")
@@ -73,7 +72,7 @@ def test_an_allowance_is_named_in_the_tally_and_red_when_strict(call, slipping):
     root = ElementTree.parse("again/junit.xml").getroot()
     assert root.find("testsuite/testcase/failure") is None
     assert "allowed: slipping: locked-wheels " in (root.findtext("testsuite/testcase/system-out") or "")
-    (case,) = json.loads(Path("runs/latest/results.json").read_text("utf-8"))["cases"]
+    (case,) = results_of("runs/latest")["cases"]
     assert case["expect"] == {**yaml.safe_load(NAMED), "of_another_controller": True}
 
 
@@ -86,13 +85,12 @@ def test_what_is_missed_beyond_the_names_is_red_and_junit_says_by_how_much(call,
     assert message.endswith("Expected: fail (total-locked-time)")
 
 
-def test_a_better_controller_is_no_unexpected_pass(call, slipping):
+def test_a_better_controller_is_no_unexpected_pass_and_an_unnamed_failure_is_met_by_the_own_one_alone(
+    call, slipping
+):
     call("run", slipping(NAMED, "threshold"), code=1, says="1 unexpected pass")
     another = ("--set", "controller=threshold")
     call("run", slipping(NAMED), *another, "--strict", code=0, says="1 case: 1 pass in")
-
-
-def test_an_unnamed_failure_is_met_by_the_own_controller_but_not_strictly_and_allows_no_other(call, slipping):
     path = slipping("fail")
     call("run", path, code=0)
     assert "names no criterion" in call("run", path, "--strict", "--format", "github", code=1).out
@@ -138,12 +136,9 @@ def test_quiet_does_not_hide_what_is_allowed(call, slipping, monkeypatch):
     assert call("run", path, "-q", code=0).out == ""
 
 
-def test_a_stop_without_a_reference_says_what_it_is_judged_without(call, workplace):
+def test_a_stop_says_what_it_cannot_be_judged_by(call, workplace):
     says = "1 stop judged without distance-over-reference, no reference distance: it is that of a"
     call("run", "sanded-80", code=0, says=says)
-
-
-def test_a_slip_test_at_a_held_speed_is_none(call, workplace):
     drag = "drag={speed: 100 km/h, duration: 5 s}"
     answer = call("run", "slip-120", "--set", drag, code=1)
     assert answer.out.startswith("inconclusive slip-120 ")

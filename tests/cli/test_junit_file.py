@@ -78,9 +78,15 @@ def test_an_error_of_the_program_and_an_interrupt_are_told_too(call, junit, monk
         assert errors_in(junit) == {"uictest run": message}
 
 
-def test_the_folder_of_the_reports_is_made_for_it(call):
+def test_its_folder_is_made_and_a_link_is_told_beside_the_reason(call):
     call("run", "gone.yaml", "-o", "reports", "--junitxml", "reports/junit.xml", code=4)
     assert list(errors_in(Path("reports/junit.xml"))) == ["gone.yaml"]
+    Path("target.xml").write_text(STALE)
+    Path("link.xml").symlink_to("target.xml")
+    said = call("run", "gone.yaml", "--junitxml", "link.xml", code=4).err
+    assert "gone.yaml:1:1: no such file" in said
+    assert "cannot write link.xml: is a link" in said
+    assert Path("target.xml").read_text() == STALE
 
 
 @pytest.mark.parametrize("arguments", [("run",), ("run", "stop.yaml"), ("run", "gone.yaml")])
@@ -97,15 +103,6 @@ def test_a_command_without_this_option_and_a_dry_run_leave_the_file_alone(call):
     call("check", "stop.yaml", "--junitxml", "junit.xml", code=4)
     call("run", "stop.yaml", "--dry-run", "--junitxml", "junit.xml", code=0)
     assert Path("junit.xml").read_text() == STALE
-
-
-def test_a_file_that_cannot_be_written_is_told_beside_the_reason(call):
-    Path("target.xml").write_text(STALE)
-    Path("link.xml").symlink_to("target.xml")
-    said = call("run", "gone.yaml", "--junitxml", "link.xml", code=4).err
-    assert "gone.yaml:1:1: no such file" in said
-    assert "cannot write link.xml: is a link" in said
-    assert Path("target.xml").read_text() == STALE
 
 
 @pytest.mark.parametrize("name", ["\udcff.xml", "a\0.xml", "x" * 300, "", "--junitxml"])

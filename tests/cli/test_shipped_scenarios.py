@@ -1,6 +1,5 @@
 """Scenarios that ship with the program, by name: as arguments, as parents, in series, as sweeps."""
 
-import json
 from pathlib import Path
 
 import pytest
@@ -9,26 +8,22 @@ import uictest
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors
 
+from .conftest import manifest_of, results_of
+
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 
 
-def test_every_shipped_file_has_a_name_of_its_own():
+def test_every_shipped_file_has_a_name_and_check_counts_names_of_every_kind(call):
     assert sorted(library.scenarios().values()) == sorted(SHIPPED.glob("*.yaml"))
+    says = "1 scenario with 1 case and 1 sweep and 1 series"
+    call("check", "slip-120", "wsp-120", "slide-80-sensitivity", code=0, says=says)
 
 
-def test_a_name_stands_for_the_shipped_scenario_and_is_what_results_show(workplace):
+def test_a_name_stands_for_the_shipped_scenario_which_may_be_extended_until_a_file_has_that_name(workplace):
     (case,) = uictest.load("slip-120")
     assert case.id == "slip-120"
     assert case.path == Path("slip-120")
     assert next(iter(case.inputs)) == "slip-120"
-
-
-def test_a_file_of_that_name_comes_first(workplace):
-    (workplace / "slip-120").write_text("schema: uictest/scenario/1\nname: own\ninitial_speed: 50 km/h\n")
-    assert [case.id for case in uictest.load("slip-120")] == ["own"]
-
-
-def test_a_scenario_may_extend_a_shipped_one(workplace):
     (workplace / "own.yaml").write_text(
         "schema: uictest/scenario/1\nname: own\nextends: slip-120\nrail: {friction: 0.1}\n"
     )
@@ -36,6 +31,8 @@ def test_a_scenario_may_extend_a_shipped_one(workplace):
     assert case.scenario.rail.friction == pytest.approx(0.1)
     assert case.scenario.tags == uictest.load("slip-120")[0].scenario.tags
     assert "slip-120" in case.inputs
+    (workplace / "slip-120").write_text("schema: uictest/scenario/1\nname: own\ninitial_speed: 50 km/h\n")
+    assert [case.id for case in uictest.load("slip-120")] == ["own"]
 
 
 def test_a_sweep_and_its_parent_may_ship(workplace, call):
@@ -65,22 +62,14 @@ def test_a_file_that_is_missing_says_what_ships(workplace, name, hint):
     assert "ship" not in str(raised.value)
 
 
-def test_copies_are_the_shipped_files_and_run(workplace, call):
+def test_copies_are_the_shipped_files_and_a_run_by_name_is_repeated_by_name(workplace, call):
     call("init", "--scenarios", code=0)
     copies = {each.name: each.read_bytes() for each in (workplace / "scenarios").iterdir()}
     assert copies == {each.name: each.read_bytes() for each in SHIPPED.glob("*.yaml")}
     call("check", code=0)
     call("init", "--scenarios", code=4, says="already there")
-
-
-def test_a_run_by_name_is_repeated_by_name(workplace, call):
     call("run", "dry-120", "-q", code=0)
     folder = workplace / "reports" / "latest"
-    assert json.loads((folder / "results.json").read_text("utf-8"))["cases"][0]["scenario"] == "dry-120"
-    command = json.loads((folder / "manifest.json").read_text("utf-8"))["command"]
+    assert results_of(folder)["cases"][0]["scenario"] == "dry-120"
+    command = manifest_of(folder)["command"]
     assert command[1:3] == ["run", "dry-120"]
-
-
-def test_check_counts_names_of_every_kind(call):
-    says = "1 scenario with 1 case and 1 sweep and 1 series"
-    call("check", "slip-120", "wsp-120", "slide-80-sensitivity", code=0, says=says)

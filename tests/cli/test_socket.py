@@ -1,6 +1,5 @@
 """Batches with a controller in a program at a socket, with and without a clock."""
 
-import json
 import signal
 import subprocess
 import sys
@@ -10,7 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from .conftest import HANGING
+from .conftest import HANGING, results_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "socket" / "wsp.py"
 
@@ -65,7 +64,7 @@ def faults(scenario):
 
 
 def results():
-    document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    document = results_of()
     return {case["parameters"]["controller.parameters.fault"]: case for case in document["cases"]}
 
 

@@ -439,18 +439,17 @@ def test_an_error_of_the_machine_is_none_of_usage(call, scenario, monkeypatch):
     call("run", "-o", "reports", code=3)
 
 
-def test_without_a_folder_of_scenarios_the_way_to_one_is_shown(call):
+def test_what_is_missing_is_told_with_the_way_to_it(call, monkeypatch):
     call("run", code=4, says="uictest init")
-
-
-def test_a_machine_without_a_compiler_is_told_what_to_install(call, monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
     Path("wsp.c").write_text("")
     call("export-controller", "wsp.c", code=4, says="uictest: no C compiler (no-such-compiler): pip install")
 
 
-def test_the_version(call):
+def test_the_version_and_the_formats_of_a_sweep(call):
     assert call("--version").out == f"uictest {uictest.__version__}\n"
+    names = ", ".join(report.FORMATS)
+    assert f"joined by commas: {names}. [default" in " ".join(call("sweep", "--help").out.split())
 
 
 @pytest.mark.parametrize("option", ["-h", "--help"])
@@ -458,11 +457,6 @@ def test_help_names_commands_and_exit_codes(call, option):
     answer = call(option, code=0)
     for word in ("run", "check", "list", "schema", "init", "library", "5 nothing selected"):
         assert word in " ".join(answer.out.split())
-
-
-def test_help_names_the_formats_of_a_sweep(call):
-    names = ", ".join(report.FORMATS)
-    assert f"joined by commas: {names}. [default" in " ".join(call("sweep", "--help").out.split())
 
 
 @pytest.mark.parametrize("group", [[], ["library"], ["identify"], ["controller"]])

@@ -19,11 +19,13 @@ from uictest.report.page import forest
 from .conftest import make_recording, make_run
 
 
+def _compared(first, second, *tolerances):
+    read = comparison.Tolerances.read(tolerances)
+    return comparison.compare_recordings(first, second, ("a", "b"), read, ["*"])
+
+
 def _html(first, second, *tolerances):
-    found = comparison.compare_recordings(
-        first, second, ("a", "b"), comparison.Tolerances.read(tolerances), ["*"]
-    )
-    return comparison.comparison_html(found)
+    return comparison.comparison_html(_compared(first, second, *tolerances))
 
 
 def _cells(page, channel, table):
@@ -45,9 +47,7 @@ def test_a_difference_is_signed_and_relative_in_the_units_of_the_page():
 
 
 def test_turned_verdicts_come_first_and_the_others_by_how_far_they_are_out():
-    found = comparison.compare_recordings(
-        make_recording(), make_recording(), ("a", "b"), comparison.Tolerances.read(()), ["*"]
-    )
+    found = _compared(make_recording(), make_recording())
     near, far = (
         Difference("stop", name, 100.0, 100.0 + off, False, "m", off, 1.0)
         for name, off in (("braking_distance_m", 2.0), ("deceleration_distance_m", 9.0))
@@ -61,13 +61,6 @@ def test_turned_verdicts_come_first_and_the_others_by_how_far_they_are_out():
     assert "distance" not in first
     rows = page[page.index('id="differences"') :]
     assert rows.index("deceleration_distance_m") < rows.index("braking_distance_m")
-
-
-def test_a_state_has_no_relative_figure():
-    valve = np.where(np.arange(101) > 50, 2.0, 0.0)
-    page = _html(make_recording(valve_command_1=valve), make_recording(valve_command_1=0.5 * valve))
-    assert _cells(page, "valve_command_1", "differing")[3:5] == ["-1", "-"]
-    assert "number of the state" in page
 
 
 @pytest.mark.parametrize(
@@ -92,16 +85,17 @@ def test_measures_stand_in_words_and_in_the_units_of_the_page(quantity, unit, va
     assert figures == pytest.approx([number, 2.0 * number, number, 0.5 * number])
 
 
-def test_recordings_that_share_no_time_have_a_page_that_says_so():
+def test_recordings_that_share_no_time_have_a_page_that_says_so_and_a_state_has_no_relative_figure():
     first, late = make_recording(end=1.0), make_recording(end=1.0)
     page = _html(first, Recording({**late.channels, "time": late["time"] + 5.0}, late.units))
     assert "A and B share no time: nothing of their channels is compared." in page
     assert _cells(page, "speed", "side-values")[1] == "no common instant"
     assert "B - A: Speed, km/h" not in page
-
-
-def test_every_jump_leads_somewhere_and_ids_stand_once():
-    page = _html(make_recording(), make_recording(speed=np.zeros(101)))
+    valve = np.where(np.arange(101) > 50, 2.0, 0.0)
+    page = _html(make_recording(valve_command_1=valve), make_recording(valve_command_1=0.5 * valve))
+    assert _cells(page, "valve_command_1", "differing")[3:5] == ["-1", "-"]
+    assert "number of the state" in page
+    # Every jump leads somewhere, and ids stand once.
     ids = re.findall(r' id="([^"]+)"', page)
     assert len(ids) == len(set(ids))
     links = re.findall(r'href="#([^"]+)"', page)
@@ -135,30 +129,21 @@ def _difference(case, first, second, quantity=MEASURE):
     return Difference(case, quantity, first, second, within=False)
 
 
-def test_the_case_that_differs_most_stands_first_and_places_are_in_proportion():
+def test_the_case_that_differs_most_stands_first_places_are_in_proportion_and_the_others_counted():
     drawn = dumbbells([_difference("a", 400.0, 410.0), _difference("b", 500.0, 460.0)])
-    assert drawn is not None
     assert [name for _, name in drawn.plot.y_ticks] == ["b", "a"]
     lines = [shape for shape in drawn.plot.shapes if shape.kind == "interval-line"]
     of_b, of_a = (float(each.path.split("H")[1]) - float(each.path[1:].split()[0]) for each in lines)
     assert of_b == pytest.approx(-4.0 * of_a, abs=0.5)
     assert lines[0].words == "b: 500 m, then 460 m (-40 m)"
     assert drawn.left_out == 0
-    long = dumbbells([_difference("x" * 80, 1.0, 2.0)])
-    assert long is not None
-    assert len(long.plot.y_ticks[0][1]) == 40
-
-
-def test_what_is_no_distance_of_both_sides_has_no_row():
-    other = _difference("a", 1.0, 2.0, quantity="braking_time_s")
-    assert dumbbells([other, _difference("b", "missing", 400.0), _difference("c", float("nan"), 1.0)]) is None
-
-
-def test_of_many_cases_those_that_differ_most_are_drawn():
+    assert len(dumbbells([_difference("x" * 80, 1.0, 2.0)]).plot.y_ticks[0][1]) == 40
     drawn = dumbbells([_difference(str(k), 400.0, 401.0 + k) for k in range(MOST + 5)])
-    assert drawn is not None
     assert (len(drawn.plot.y_ticks), drawn.left_out) == (MOST, 5)
     assert drawn.plot.y_ticks[0][1] == str(MOST + 4)
+    # What is no distance of both sides has no row.
+    other = _difference("a", 1.0, 2.0, quantity="braking_time_s")
+    assert dumbbells([other, _difference("b", "missing", 400.0), _difference("c", float("nan"), 1.0)]) is None
 
 
 def _paired(quantity, mean, half, first=100.0):
@@ -171,42 +156,26 @@ def _drawn(*differences):
     return forest(effects(group), "effects", "%")
 
 
-def _across(plot, kind):
-    """Return the pixels across at which the shapes of a kind begin."""
-    return [float(shape.path[1:].split()[0]) for shape in plot.shapes if shape.kind.startswith(kind)]
-
-
-def test_the_largest_effect_stands_first_whatever_its_sign():
-    drawn = _drawn(_paired("a", 1.0, 0.5), _paired("b", -8.0, 1.0), _paired("c", 3.0, 1.0))
-    assert drawn is not None
+def test_the_largest_effect_stands_first_and_a_dot_is_filled_where_the_interval_leaves_out_zero():
+    drawn = _drawn(*(_paired(*effect) for effect in (("a", 1.0, 0.5), ("b", -8.0, 1.0), ("c", 3.0, 3.5))))
     assert [name for _, name in drawn.y_ticks] == ["b", "c", "a"]
     heights = [y for y, _ in drawn.y_ticks]
     assert heights == sorted(heights)
+    filled = [shape.words[0] for shape in drawn.shapes if shape.kind == "effect clear"]
+    assert filled == ["b", "a"]
+    # A mean beyond the axis is written out; what has no share or no interval is left to the table.
+    drawn = _drawn(_paired("a", 900.0, 1.0), _paired("b", 3.0, 1.0))
+    assert drawn.y_ticks[0][1] == "a, +900 %"
+    assert _drawn(_paired("a", 1.0, 0.5, first=0.0), _paired("c", 1.0, math.nan)) is None
 
 
-def test_places_are_in_proportion_to_the_share_of_the_first_side():
+def test_effects_lie_in_proportion_to_the_share_of_the_first_side():
     drawn = _drawn(_paired("a", 4.0, 2.0), _paired("b", 4.0, 2.0, first=200.0))
-    assert drawn is not None
-    (zero,) = _across(drawn, "zero")
-    means = [x + 4.0 - zero for x in _across(drawn, "effect")]  # from the middle of the circles
-    lows = [x - zero for x in _across(drawn, "interval-line")]
+    zero, effects_at, lows_at = (
+        [float(shape.path[1:].split()[0]) for shape in drawn.shapes if shape.kind.startswith(kind)]
+        for kind in ("zero", "effect", "interval-line")
+    )
+    means = [x + 4.0 - zero[0] for x in effects_at]  # from the middle of the circles
+    lows = [x - zero[0] for x in lows_at]
     assert means == pytest.approx([2 * means[1], means[1]], abs=0.2)
     assert lows == pytest.approx([0.5 * means[0], 0.5 * means[1]], abs=0.2)
-
-
-def test_a_dot_is_filled_where_the_interval_leaves_out_zero():
-    drawn = _drawn(_paired("a", 3.0, 1.0), _paired("b", 2.0, 2.5), _paired("c", -1.0, 0.5))
-    assert drawn is not None
-    filled = [shape.words[0] for shape in drawn.shapes if shape.kind == "effect clear"]
-    assert filled == ["a", "c"]
-
-
-def test_a_mean_beyond_the_axis_is_written_out():
-    drawn = _drawn(_paired("a", 900.0, 1.0), _paired("b", 3.0, 1.0))
-    assert drawn is not None
-    assert drawn.y_ticks[0][1] == "a, +900 %"
-
-
-def test_what_has_no_share_or_no_interval_is_left_to_the_table():
-    without = _paired("c", 1.0, math.nan)
-    assert _drawn(_paired("a", 1.0, 0.5, first=0.0), without) is None

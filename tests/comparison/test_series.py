@@ -57,19 +57,16 @@ def _compared(first, second):
     return compare_runs(*runs, Tolerances())
 
 
-def test_a_series_and_itself_agree():
-    found = _compared([make_series([500.0, 510.0])], [make_series([500.0, 510.0])])
+LEFT_OUT = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
+
+
+def test_a_series_and_itself_agree_and_verdicts_counts_and_measures_are_compared():
+    before = [make_series([500.0, 510.0])]
+    found = _compared(before, [make_series([500.0, 510.0])])
     assert found.agrees
     # The outcome, a criterion, the dry and the wet stops that count, two measures.
     assert found.compared == 6
     assert list(document_lines(comparison_document(found), None)) == []
-
-
-LEFT_OUT = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
-
-
-def test_verdicts_counts_and_measures_of_a_series_are_compared():
-    before = [make_series([500.0, 510.0])]
     (missing,) = _compared(before, []).beyond
     assert (missing.case, missing.first, missing.second) == ("acceptance", "pass", "missing")
     found = _compared(before, [make_series([500.0, 530.0], "fail", not_counted=LEFT_OUT)])
@@ -112,7 +109,7 @@ def test_series_of_one_run_pair_over_the_keys_that_make_them():
         make_series([500.0, 510.0], name="wsp[controller=a]", parameters={"controller": "a"}),
         make_series([490.0, 500.0], name="wsp[wsp=bypassed]", parameters={"rig.wsp": "bypassed"}),
     ]
-    (found,) = compare_variants(RunContent("run", [], series=variants), ["controller", "rig.wsp"])
+    (found,) = compare_variants(_run(*variants), ["controller", "rig.wsp"])
     assert (found.first, found.second) == ("controller=a", "rig.wsp=bypassed")
     (group,) = found.groups
     assert (group.name, group.pairs) == ("wsp, wet stops from 120 km/h", 4)
@@ -120,41 +117,44 @@ def test_series_of_one_run_pair_over_the_keys_that_make_them():
     assert distance.mean.value == -10.0
 
 
+def _run(*planned, **changes):
+    return RunContent("run", [], series=planned, **changes)
+
+
 def make_baseline(accepted, selected=(), searched=()):
     """A baseline of series, and which of them a later run selects."""
-    run = RunContent("run", [], series=accepted)
     scope = Scope(frozenset(selected), searched)
     document = {"cases": [], "manifest": {}, "series": series.series_document(accepted)}
-    return Baseline("kept", "", run, {}, document, scope, Tolerances())
+    return Baseline("kept", "", _run(*accepted), {}, document, scope, Tolerances())
+
+
+def _shown(differences):
+    return [(each.case, each.quantity, each.first, each.second) for each in differences]
 
 
 def test_a_baseline_compares_verdicts_and_measures_of_series():
     before = make_series([500.0, 510.0])
     baseline = make_baseline([before], ["acceptance"])
-    same = baseline.compare(RunContent("run", [], series=[before]))
+    same = baseline.compare(_run(before))
     assert (same.agrees, same.compared, same.within, dict(same.series)) == (True, 6, 0, {})
-    found = baseline.compare(RunContent("run", [], series=[make_series([500.0, 530.0], "fail")]))
-    shown = [(each.case, each.quantity, each.first, each.second) for each in found.all_differences]
-    assert shown == [
+    found = baseline.compare(_run(make_series([500.0, 530.0], "fail")))
+    assert _shown(found.all_differences) == [
         ("acceptance", "criterion k-wet", "pass", "fail"),
         ("acceptance", "deceleration_distance_extension", 45.0, 55.0),
     ]
     assert found.series == {"acceptance": "acceptance.series.yaml"}
-
-
-def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs():
+    # One that is new, or that its file no longer has, differs.
     new, old = make_series([500.0], name="new"), make_series([500.0], name="old")
-    baseline = make_baseline([old], ["new"], ["acceptance.series.yaml"])
-    found = baseline.compare(RunContent("run", [], series=[new]))
-    shown = [(each.case, each.quantity, each.first, each.second) for each in found.all_differences]
-    assert shown == [("new", "series", "missing", "pass"), ("old", "series", "pass", "missing")]
+    found = make_baseline([old], ["new"], ["acceptance.series.yaml"]).compare(_run(new))
+    shown = [("new", "series", "missing", "pass"), ("old", "series", "pass", "missing")]
+    assert _shown(found.all_differences) == shown
     assert (sorted(found.series), found.series_not_compared, found.compared) == (["new", "old"], [], 2)
 
 
 def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted():
     old, new = make_series([500.0], name="old"), make_series([500.0], name="new")
     baseline = make_baseline([old], ["new"])
-    found = baseline.compare(RunContent("run", [], series=[]))
+    found = baseline.compare(_run())
     assert (found.agrees, found.series_not_compared) == (True, ["old"])
     run = {"cases": [], "manifest": {}, "series": series.series_document([new])}
     kept = accepted_document(run, baseline)
@@ -169,10 +169,10 @@ def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted():
 
 
 def test_a_series_that_differs_is_in_every_report_for_machines():
-    after = [make_series([500.0], "fail")]
-    found = make_baseline([make_series([500.0])]).compare(RunContent("run", [], series=after))
+    after = make_series([500.0], "fail")
+    found = make_baseline([make_series([500.0])]).compare(_run(after))
     sentence = "baseline: criterion k-wet was pass, is fail"
-    content = RunContent("run", [], series=after, baseline=found)
+    content = _run(after, baseline=found)
     suites = ElementTree.fromstring(junit_text(run_suites(content)))
     failure = suites.find(".//testcase[@name='acceptance']/failure")
     assert (failure.get("type"), failure.text) == ("baseline", sentence)

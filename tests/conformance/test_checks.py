@@ -1,6 +1,7 @@
 """Each check rejects the controller that breaks its fact, and the controllers that ship pass fair limits."""
 
 import json
+from functools import partial
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,13 +9,41 @@ import pytest
 
 from uictest import report, selftest
 from uictest.controllers import OUTPUTS
-from uictest.plans.scenario import load_part
+from uictest.plans import templates
+from uictest.plans.scenario import load_controller, load_part
+from uictest.rig.external import workers
 from uictest.selftest import conformance
-from uictest.selftest.conformance import checks
+from uictest.selftest.conformance import bench as situations, checks
 from uictest.selftest.conformance.checks import recording_of
 
 STEP = '        """Answer one controller cycle."""\n'
 RESULT = "            hold=[hold for hold, _ in states],\n            vent=[vent for _, vent in states],\n"
+
+
+@pytest.fixture
+def here(monkeypatch):
+    """Drive controllers in this process: they fail in none of their cycles."""
+    monkeypatch.setattr(workers, "_is_isolated", lambda program: False)
+
+
+@pytest.fixture
+def examine(tmp_path, monkeypatch):
+    """Examine the first controller in Python with one stretch of its text replaced by another.
+
+    Its cycles take four times as long as those of the library, so that each drive has a quarter as many: as
+    many cycles has the one with random inputs.
+    """
+    monkeypatch.setattr(situations, "anything", partial(situations.anything, cycles=750))
+
+    def changed(before="", after="", time_limit="60 s"):
+        files = templates.controller_files("python")
+        assert before in files["my_wsp.py"]
+        (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")
+        part = tmp_path / "my-wsp.yaml"
+        part.write_text(f"{files['my-wsp.yaml']}cycle_time: 40 ms\ntime_limit: {time_limit}\n", "utf-8")
+        return conformance.examine(conformance.subject_of("changed", load_controller(str(part))))
+
+    return changed
 
 
 def missed(examination):

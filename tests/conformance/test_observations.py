@@ -20,12 +20,38 @@ def nothing(outputs, time):
     """Fill, always: no magnet is energised."""
 
 
+SITUATIONS = {
+    "motor_slides": ("motor", situations.motor_slides),
+    "good_rail": ("rolls", situations.good_rail),
+    "one_slides": ("slides", situations.one_slides),
+    "sensor_lost": ("lost", situations.sensor_lost),
+}
+
+
 def vents(wheelset, begin, end):
     """Vent one wheelset from one time to another."""
 
     def write(outputs, time):
         for magnet in ("hold", "vent"):
             outputs[magnet][(time > begin - 1e-6) & (time < end - 1e-6), wheelset] = 1
+
+    return write
+
+
+def reduces(wheelset, begin, end):
+    """Take the dynamic brake off one wheelset from one time to another."""
+
+    def write(outputs, time):
+        outputs["dynamic_reduction"][(time > begin - 1e-6) & (time < end - 1e-6), wheelset] = 0.5
+
+    return write
+
+
+def gives(field, index, value):
+    """Give one value of an output."""
+
+    def write(outputs, time):
+        outputs[field][index] = value
 
     return write
 
@@ -39,31 +65,19 @@ def observed(check_id, write, only="", wheelset=0):
         (write if (kind, which) == (only, wheelset) else nothing)(outputs, situation.time)
         return Answers(situation, (Driven(outputs, np.full(len(outputs), 0.2 * CYCLE)),))
 
-    def one_slides(which):
-        return answers("slides", situations.one_slides(CYCLE, which), which)
-
-    def good_rail():
-        return answers("rolls", situations.good_rail(CYCLE))
+    def asked(kind, situation):
+        return lambda *which: answers(kind, situation(CYCLE, *which), *which)
 
     def locked(*which):
         return answers("locked", situations.locked(CYCLE, which), which[0] if len(which) == 1 else -1)
 
-    def sensor_lost(which):
-        return answers("lost", situations.sensor_lost(CYCLE, which), which)
-
-    def motor_slides(which):
-        return answers("motor", situations.motor_slides(CYCLE, which), which)
-
     bench = SimpleNamespace(
         contract=2,
-        motor_slides=motor_slides,
         subject=SimpleNamespace(config=SimpleNamespace(cycle_time=CYCLE)),
-        good_rail=good_rail,
-        one_slides=one_slides,
         locked=locked,
-        sensor_lost=sensor_lost,
-        every_situation=lambda: [good_rail(), one_slides(0)],
+        **{name: asked(*of) for name, of in SITUATIONS.items()},
     )
+    bench.every_situation = lambda: [bench.good_rail(), bench.one_slides(0)]
     check = next(each for each in conformance.CHECKS if each.id == check_id)
     return check.observe(cast(Bench, bench))
 
@@ -81,6 +95,21 @@ def test_a_valve_has_three_commands(hold, vent, illegal):
     assert observed("legal-commands", write, "rolls").value == illegal
 
 
+@pytest.mark.parametrize(
+    ("field", "index", "value", "illegal"),
+    [
+        ("dynamic_reduction", (7, 2), 1.0, 0),
+        ("dynamic_reduction", (7, 2), 1.01, 1),
+        ("dynamic_reduction", (7, 2), float("nan"), 1),
+        ("sand_request", (7, 2), 1, 0),
+        ("sand_request", (7, 2), 2, 1),
+        ("track_brake_request", 7, -1, 1),
+    ],
+)
+def test_reductions_and_requests_have_their_range(field, index, value, illegal):
+    assert observed("legal-commands", gives(field, index, value), "rolls").value == illegal
+
+
 def test_cycles_in_which_any_wheelset_is_held_on_a_good_rail_are_counted():
     def write(outputs, time):
         outputs["hold"][20:23, 1] = 1
@@ -89,12 +118,6 @@ def test_cycles_in_which_any_wheelset_is_held_on_a_good_rail_are_counted():
     found = observed("keeps-brake", write, "rolls")
     assert found.value == 4
     assert found.words.endswith("; first at 1.00 s")
-
-
-def vents_all_at_once(outputs, time):
-    """Vent every wheelset a second after one begins to slide."""
-    for wheelset in range(4):
-        vents(wheelset, SLIDE_BEGINS + 1.0, SLIDE_BEGINS + 1.5)(outputs, time)
 
 
 @pytest.mark.parametrize(
@@ -115,15 +138,6 @@ def test_a_slide_is_answered_by_the_first_vent_while_it_lasts(begin, end, value)
     assert found.value == NEVER
 
 
-def reduces(wheelset, begin, end):
-    """Take the dynamic brake off one wheelset from one time to another."""
-
-    def write(outputs, time):
-        outputs["dynamic_reduction"][(time > begin - 1e-6) & (time < end - 1e-6), wheelset] = 0.5
-
-    return write
-
-
 @pytest.mark.parametrize(("vented", "found"), [(3.2, "0.50 s"), (2.5, "never"), (2.2, "never")])
 def test_a_motor_is_reduced_before_its_valve_vents(vented, found):
     """Wheelset 2 is asked alone; what happens at once does not come first."""
@@ -137,9 +151,16 @@ def test_a_motor_is_reduced_before_its_valve_vents(vented, found):
     assert observation.value == NEVER
 
 
-def test_motors_of_the_other_bogie_are_left_alone():
+def test_motors_of_the_other_bogie_and_valves_of_other_wheelsets_are_left_alone():
     assert observed("spares-motors", reduces(1, 3.0, 3.5), "motor", 0).value == 0
     assert observed("spares-motors", reduces(1, 3.0, 3.5), "motor", 2).value == 10
+
+    def vents_all(outputs, time):
+        for wheelset in range(4):
+            vents(wheelset, SLIDE_BEGINS + 1.0, SLIDE_BEGINS + 1.5)(outputs, time)
+
+    assert observed("spares-rolling", vents_all, "slides", 1).value == 10
+    assert observed("spares-rolling", vents(1, 3.0, 3.5), "slides", 1).value == 0
 
 
 def test_a_motor_is_given_back_with_the_last_reduction_after_the_wheelset_rolls():
@@ -149,29 +170,6 @@ def test_a_motor_is_given_back_with_the_last_reduction_after_the_wheelset_rolls(
     assert 1.0 < last < 2.0
     assert observed("motor-back", reduces(0, 3.0, 99.0), "motor").value == NEVER
     assert observed("motor-back", nothing).value == 0.0
-
-
-@pytest.mark.parametrize(
-    ("field", "place", "value", "illegal"),
-    [
-        ("dynamic_reduction", (7, 2), 1.0, 0),
-        ("dynamic_reduction", (7, 2), 1.01, 1),
-        ("dynamic_reduction", (7, 2), float("nan"), 1),
-        ("sand_request", (7, 2), 1, 0),
-        ("sand_request", (7, 2), 2, 1),
-        ("track_brake_request", 7, -1, 1),
-    ],
-)
-def test_reductions_and_requests_have_their_range(field, place, value, illegal):
-    def write(outputs, time):
-        outputs[field][place] = value
-
-    assert observed("legal-commands", write, "rolls").value == illegal
-
-
-def test_wheelsets_that_are_vented_beside_the_one_that_slides_are_counted_by_cycles():
-    assert observed("spares-rolling", vents_all_at_once, "slides", 1).value == 10
-    assert observed("spares-rolling", vents(1, 3.0, 3.5), "slides", 1).value == 0
 
 
 def test_the_brake_is_given_back_with_the_last_command_after_the_wheelset_rolls():

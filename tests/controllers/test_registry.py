@@ -65,27 +65,21 @@ def test_a_module_in_the_folder_is_a_controller(tmp_path, monkeypatch):
     assert finished.wheelsets.valve_command.tolist() == [VENT] * 4
 
 
-def test_every_controller_has_a_model_that_scenarios_choose_by_its_name():
+def test_scenarios_choose_a_model_by_its_name_and_a_conflict_shows_values_as_written(tmp_path):
     assert CONTROLLER_MODELS.keys() == CONTROLLERS.keys()
     for name, model in CONTROLLER_MODELS.items():
         assert model.__doc__ == CONTROLLERS[name].parameters.__doc__
-
-
-def test_a_conflict_shows_values_as_the_user_wrote_them(tmp_path):
     path = tmp_path / "stop.yaml"
     path.write_text(STOP + "controller: {extends: threshold, hold_limit: 9 ms}\n")
     with pytest.raises(ScenarioErrors, match="9 ms is shorter than one controller cycle \\(10 ms\\)"):
         load([path])
 
 
-@pytest.mark.parametrize(("slide", "command"), [(0.05, FILL), (0.10, HOLD), (0.19, HOLD), (0.25, VENT)])
-def test_slide_chooses_the_command(slip_band_bench, slide, command):
-    controller = slip_band_bench(20.0)
-    assert controller.commands(20.0, 20.0, 20.0 * (1.0 - slide), 20.0) == [FILL, FILL, command, FILL]
-
-
-def test_reference_sinks_with_wheelsets_that_slide_together(slip_band_bench):
+def test_slide_chooses_the_command_and_the_reference_sinks_where_all_slide_together(slip_band_bench):
     """What this controller cannot do: the estimate falls at its bound although the train hardly slows."""
+    for slide, command in ((0.05, FILL), (0.10, HOLD), (0.19, HOLD), (0.25, VENT)):
+        controller = slip_band_bench(20.0)
+        assert controller.commands(20.0, 20.0, 20.0 * (1.0 - slide), 20.0) == [FILL, FILL, command, FILL]
     controller = slip_band_bench(20.0)
     for _ in range(500):
         controller.commands(0.0, 0.0, 0.0, 0.0)

@@ -8,6 +8,7 @@ import re
 import runpy
 import shlex
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 from textwrap import dedent
 from unittest.mock import patch
@@ -16,6 +17,7 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
+import uictest
 from studies.study import STUDIES
 from uictest.cli.commands.schema import SchemaKind, schema_text
 from uictest.cli.entry import execute
@@ -148,7 +150,7 @@ def loads_as(kind, content, folder):
     """Whether the program accepts a file in a folder that lacks what it names."""
     if "vary" in content:
         content = merged(content, {"vary": {"matrix": {"rail.friction": [0.1, 0.2]}}})
-    ending, load = (".yaml", lambda path: scenario.load([path]))
+    ending, load = ".yaml", lambda path: scenario.load([path])
     if "vary" in content or kind == "series":
         ending, load = (".sweep.yaml", load_sweep) if "vary" in content else (".series.yaml", load_series)
     path = folder / f"file{ending}"
@@ -181,15 +183,8 @@ def test_fragments_are_found():
     assert "series" in found
 
 
-def takes_long(block):
-    """Whether a console block runs all studies, or one whose bands are judged among the slow tests.
-
-    The block with all of them is compared to the digit by tests/studies/test_claims.py.
-    """
-    return "./reproduce -q" in block.text or is_of_slow_study(block)
-
-
 def is_of_slow_study(block):
+    """Whether a console block runs a study whose bands are judged among the slow tests."""
     return any(f"./reproduce {each}" in block.text for each in SLOW_STUDIES)
 
 
@@ -264,9 +259,12 @@ def check_consoles(page, folder, chosen):
 def test_console_blocks_show_what_the_program_prints(page, tmp_path):
     """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them.
 
-    Blocks of studies that take long are compared among the slow tests.
+    Blocks of studies that take long are compared among the slow tests; the one with all studies to the digit
+    by tests/studies/test_claims.py.
     """
-    check_consoles(page, tmp_path, lambda block: not takes_long(block))
+    check_consoles(
+        page, tmp_path, lambda block: not ("./reproduce -q" in block.text or is_of_slow_study(block))
+    )
 
 
 def test_console_blocks_of_slow_studies_show_their_quantities():
@@ -286,3 +284,13 @@ def test_console_blocks_of_slow_studies_show_their_quantities():
 @pytest.mark.slow
 def test_console_blocks_of_slow_studies_show_what_the_program_prints(tmp_path):
     check_consoles(REPOSITORY / "docs" / "studies.md", tmp_path, is_of_slow_study)
+
+
+def test_the_verdict_by_hand_adds_up_from_the_speeds_of_the_stop():
+    """The speeds of the page are those of the stop; trapezoids over them give its distance."""
+    page = (REPOSITORY / "docs" / "trust.md").read_text("utf-8").partition("### A verdict by hand")[2]
+    speeds = [float(each) for each in re.search(r"\n\n((?:    [\d. ]+\n)+)", page)[1].split()]
+    stop = uictest.simulate("dry-120")
+    assert speeds == pytest.approx(list(3.6 * stop["speed"][::100][: len(speeds)]), abs=0.051)
+    area = sum((a + b) / 7.2 for a, b in pairwise(speeds)) + speeds[-1] / 7.2 * (27.85 - len(speeds) + 1)
+    assert f"add up to {area:.1f} m" in " ".join(page.split())

@@ -1,7 +1,9 @@
-"""What every page keeps to: links that lead somewhere, lines that can be read, generated parts up to date."""
+"""What every page keeps to: links and tests that are there, readable lines, nothing left undescribed."""
 
+import ast
 import dataclasses
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -17,6 +19,10 @@ REPOSITORY = Path(__file__).parents[2]
 LONGEST = 110
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def page_text(name):
+    return (REPOSITORY / "docs" / f"{name}.md").read_text("utf-8")
 
 
 def prose(page):
@@ -61,22 +67,18 @@ def test_generated_tables_are_those_of_the_models(page):
     assert with_generated(text, generated) == text, "run docs/tools/refresh.py"
 
 
-def test_every_field_of_a_result_is_described():
-    text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
+def test_every_field_of_a_result_and_every_channel_of_a_recording_is_described():
+    text = page_text("commands")
     names = {field.name for each in (CaseResult, Verdict) for field in dataclasses.fields(each)}
     # How long the simulation took is not part of a result; the status of a verdict stands at `verdict`.
     names = names - {"duration", "status"} | {"verdict", *STOP_COLUMNS, *WHEELSET_COLUMNS}
     assert {name for name in names if not re.search(rf"`(?:\S*[.])?{name}`", text)} == set()
-
-
-def test_every_channel_of_a_recording_is_described():
-    text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
-    names = [name for name, _ in (*CAR_CHANNELS, *WHEELSET_CHANNELS)]
-    assert [name for name in names if f"`{name}`" not in text] == []
+    channels = [name for name, _ in (*CAR_CHANNELS, *WHEELSET_CHANNELS)]
+    assert [name for name in channels if f"`{name}`" not in text] == []
 
 
 def test_every_key_of_a_scenario_is_named():
-    text = (REPOSITORY / "docs/scenarios.md").read_text("utf-8")
+    text = page_text("scenarios")
     groups = {"brake": Brake, "rail": Rail, "rig": Rig, "simulation": Simulation, "record": Record}
     keys = {field.alias or name for name, field in Scenario.model_fields.items()} - groups.keys()
     keys |= {f"{group}.{name}" for group, model in groups.items() for name in model.model_fields}
@@ -94,7 +96,7 @@ def test_the_definitions_of_the_measures_are_those_of_the_library():
 
 def test_every_measure_of_a_series_is_described():
     """A median or worst value has the row of its figure."""
-    text = (REPOSITORY / "docs/series.md").read_text("utf-8")
+    text = page_text("series")
     names = {
         re.sub("^(median|worst)_", "", name) if measure.has_dry_value else name
         for name, measure in SERIES_MEASURES.items()
@@ -113,3 +115,39 @@ def test_how_firm_its_verdicts_are_is_said_of_every_shipped_scenario():
     sweeps = {path.name.split(".")[0] for path in REPOSITORY.glob("scenarios/*.sweep.yaml")}
     said = set(re.findall(r"`([\w-]+)`", section.partition("\n## ")[0]))
     assert names - sweeps - said == set()
+
+
+_TEST = re.compile(r"\[(test_\w+)\]\(([^)]+\.py)\)")
+
+
+@cache
+def names_in(path):
+    tree = ast.parse(path.read_text("utf-8"))
+    return frozenset(node.name for node in tree.body if isinstance(node, ast.FunctionDef))
+
+
+def rows(page):
+    """Return the cells of every row of the tables of a page but their heads."""
+    lines = re.findall(r"^\| (.+) \|$", page.read_text("utf-8"), re.MULTILINE)
+    return [[cell.strip() for cell in line.split(" | ")] for line in lines][1:]
+
+
+REQUIREMENTS, FUNCTIONS = (
+    rows(REPOSITORY / "docs" / f"{name}.md") for name in ("requirements", "tool-errors")
+)
+
+
+def test_each_requirement_stands_once_and_has_one_test():
+    assert len({requirement for requirement, _ in REQUIREMENTS}) == len(REQUIREMENTS) > 10
+    assert [row for row in REQUIREMENTS if len(_TEST.findall(row[1])) != 1 or row[1].count("[") != 1] == []
+
+
+def test_the_tests_that_are_named_exist(page):
+    for name, link in _TEST.findall(page.read_text("utf-8")):
+        assert name in names_in((page.parent / link).resolve()), f"no {name} in {link}"
+
+
+def test_every_function_of_the_tool_says_how_it_could_lie_what_finds_it_and_what_remains():
+    assert len(FUNCTIONS) > 15
+    assert all(len(row) == 4 and all(row) for row in FUNCTIONS)
+    assert [row[0] for row in FUNCTIONS if not _TEST.search(row[2])] == []

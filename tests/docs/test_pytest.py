@@ -7,21 +7,15 @@ from pathlib import Path
 import uictest
 
 PAGE = Path(__file__).parents[2] / "docs" / "pytest.md"
-LIMITED = """\
-schema: uictest/scenario/1
-name: stop
-initial_speed: 80 km/h
-criteria: short-stops.yaml
-zip: {seed: [1, 2], expect: [pass, fail]}
-"""
+DRY = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
+LIMITED = f"{DRY}criteria: short-stops.yaml\nzip: {{seed: [1, 2], expect: [pass, fail]}}\n"
 CRITERIA = """\
 schema: uictest/criteria/1
-name: short-stops
-sources: {ours: {mark: chosen, text: A limit that no stop keeps}}
-criteria:
-  - {id: distance, layer: requirement, measure: braking_distance, source: ours,
-     upper: {value: 35 m, source: ours}}
+name: {name}
+sources: {{ours: {{mark: chosen, text: A limit that nothing keeps}}}}
+criteria: [{{layer: requirement, source: ours, {criterion}}}]
 """
+SHORT = "id: distance, measure: braking_distance, upper: {value: 35 m, source: ours}"
 SERIES = """\
 schema: uictest/series/1
 name: two
@@ -29,14 +23,7 @@ dry: {scenario: _dry.yaml, set: {initial_speed: 30 km/h}}
 wet: {scenario: _dry.yaml, set: {initial_speed: 30 km/h, rail.condition: wet, rail.friction: 0.1}}
 criteria: extension.yaml
 """
-EXTENSION = """\
-schema: uictest/criteria/1
-name: extension
-sources: {ours: {mark: chosen, text: A limit that no series keeps}}
-criteria:
-  - {id: k-wet, scope: series, layer: requirement, measure: k_wet, source: ours,
-     lower: {value: 10, source: ours}}
-"""
+EXTENSION = "id: k-wet, scope: series, measure: k_wet, lower: {value: 10, source: ours}"
 
 
 def session_in(folder):
@@ -69,11 +56,13 @@ def test_what_is_not_as_expected_fails_and_names_criterion_and_value(tmp_path):
         path.unlink()
     below = folder / "of-a-project"
     below.mkdir()
-    (folder / "stop.yaml").write_text(LIMITED, "utf-8")
-    (folder / "short-stops.yaml").write_text(CRITERIA, "utf-8")
-    (below / "_dry.yaml").write_text(LIMITED.partition("criteria")[0], "utf-8")
-    (below / "two.series.yml").write_text(SERIES, "utf-8")
-    (below / "extension.yaml").write_text(EXTENSION, "utf-8")
+    short = CRITERIA.format(name="short-stops", criterion=SHORT)
+    extension = CRITERIA.format(name="extension", criterion=EXTENSION)
+    for path, text in (
+        *((folder / "stop.yaml", LIMITED), (folder / "short-stops.yaml", short), (below / "_dry.yaml", DRY)),
+        *((below / "two.series.yml", SERIES), (below / "extension.yaml", extension)),
+    ):
+        path.write_text(text, "utf-8")
     code, lines = session_in(tmp_path)
     assert code == 1
     assert lines[-1].startswith("2 failed, 1 passed in ")

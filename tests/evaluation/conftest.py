@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import yaml
 
-from uictest.judging.evaluation import judge
+from uictest.judging.evaluation import SimulatedRepeat, evaluate, evaluate_repeats, judge
 from uictest.plans.scenario import expectation_of
 from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
@@ -83,3 +83,14 @@ def verdict_of(criterion, measures, records=None, coverage=None):
     records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
     (verdict,) = judge(scenario(profile(criterion)), measures, records, coverage=coverage)
     return verdict
+
+
+def evaluate_stops(scenario, *stops, rule="all"):
+    """Judge a case whose stops under seeds 0, 1, ... have these measures of the stop and of the wheelsets."""
+    scenario.outcome_of_repeats = rule
+    together = case(scenario)
+    repeats = [
+        SimulatedRepeat(seed, evaluate(together, *records, detail="status"), *records)
+        for seed, records in enumerate(stops)
+    ]
+    return evaluate_repeats(together, repeats)

@@ -157,7 +157,7 @@ def sound_test():
     return case(scenario(shipped("uictest-stop"), condition="dry"))
 
 
-def test_a_stop_with_finite_measures_is_judged_and_a_wheelset_without_is_an_error_and_named(sound_test):
+def test_a_stop_is_an_error_whose_wheelset_has_no_finite_measure_or_that_takes_no_air(sound_test):
     # The minimum deceleration is NaN where the stop ended before the brake was developed.
     undeveloped = stop(minimum_deceleration=math.nan)
     result = evaluate_simulated(sound_test, undeveloped, wheelsets(0.0, 0.0, 0.0, 0.0))
@@ -165,6 +165,10 @@ def test_a_stop_with_finite_measures_is_judged_and_a_wheelset_without_is_an_erro
     result = evaluate_simulated(sound_test, stop(), wheelsets(0.0, math.nan, 0.0, 0.0))
     assert result.outcome == "error"
     assert "no finite maximum_slide_2" in result.reason
+    measures = stop(air_consumed=0.0, air_residual=math.nan, air_energy_residual=math.nan, end_time=0.086)
+    result = evaluate_simulated(sound_test, measures, wheelsets(0.0, 0.0, 0.0, 0.0))
+    assert result.outcome == "error"
+    assert "ended after 0.086 s, before the brake took any air" in result.reason
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
@@ -177,13 +181,6 @@ def test_a_measure_of_the_stop_that_is_no_number_is_an_error_not_a_verdict(sound
     assert f"no finite {name}" in result.reason
 
 
-def test_a_stop_that_takes_no_air_has_no_balances_of_the_air(sound_test):
-    measures = stop(air_consumed=0.0, air_residual=math.nan, air_energy_residual=math.nan, end_time=0.086)
-    result = evaluate_simulated(sound_test, measures, wheelsets(0.0, 0.0, 0.0, 0.0))
-    assert result.outcome == "error"
-    assert "ended after 0.086 s, before the brake took any air" in result.reason
-
-
 IN_TIME = ResponseTimes(1770, 0.01, 0, 0.0012, 700, 0.0003)
 LATE = replace(IN_TIME, missed_deadlines=3, longest_answer_s=0.0314)
 
@@ -192,12 +189,6 @@ def judged(times, limit="500 m"):
     """Judge a stop of 465 m by one requirement on its distance."""
     judged_as = case(scenario(profile(criterion(layer="requirement", upper=limit))))
     return evaluate_simulated(judged_as, stop(), wheelsets(), response_times=times)
-
-
-def test_a_stop_without_a_missed_deadline_is_judged_as_any_other():
-    with_clock, without = cases_document([replace(judged(IN_TIME), response_times=None), judged(None)])
-    assert with_clock == without
-    assert with_clock["outcome"] == "pass"
 
 
 def test_a_missed_deadline_makes_a_stop_invalid_before_a_failed_requirement_and_says_how_late():
@@ -227,6 +218,9 @@ def test_the_document_has_response_times_in_real_time_only_and_they_are_read_bac
     result = judged(LATE)
     document = json.loads(json.dumps(result_document([result])))
     assert results_of(document)[0].response_times == LATE
+    with_clock, without = cases_document([replace(judged(IN_TIME), response_times=None), judged(None)])
+    assert with_clock == without
+    assert with_clock["outcome"] == "pass"
 
 
 TEXT = """\
@@ -256,22 +250,16 @@ def named(tmp_path):
     return case
 
 
-def test_a_result_has_the_ids_of_the_case_and_each_verdict_those_of_its_criterion(named):
+def test_a_result_has_the_ids_of_the_case_and_one_that_was_not_judged_hides_no_requirement(named):
     result = evaluate(named, stop(), wheelsets(0.0, 0.0, 0.0, 0.0))
     assert (result.requirements, result.test_case) == (("BR-1",), "WSP-TC-7")
-    own = [verdict.requirements for verdict in result.criteria if verdict.layer != "rig"]
-    assert own == [("BR-2", "BR-1"), ("BR-3",)]
-
-
-def test_a_case_that_could_not_be_judged_hides_no_requirement_repeated_or_not(named):
+    of_criteria = [verdict.requirements for verdict in result.criteria if verdict.layer != "rig"]
+    assert of_criteria == [("BR-2", "BR-1"), ("BR-3",)]
+    (profile,) = named.scenario.criteria
+    assert [applies_to(criterion, named.scenario) for criterion in profile.criteria] == [True, False]
     assert error_result(named, "diverged").requirements == ("BR-1", "BR-2", "BR-3")
     records = stop(), wheelsets(0.0, 0.0, 0.0, 0.0)
     sound = SimulatedRepeat(0, evaluate(named, *records, detail="status"), *records)
     assert evaluate_repeats(named, [sound, sound]).requirements == ("BR-1",)
     failed = SimulatedRepeat(1, error_result(named, "diverged"))
     assert evaluate_repeats(named, [sound, failed]).requirements == ("BR-1", "BR-2", "BR-3")
-
-
-def test_whether_a_criterion_applies_is_known_before_the_stop(named):
-    (profile,) = named.scenario.criteria
-    assert [applies_to(criterion, named.scenario) for criterion in profile.criteria] == [True, False]

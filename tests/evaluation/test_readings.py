@@ -9,9 +9,7 @@ import pytest
 from uictest.judging.evaluation import (
     Coverage,
     MissingData,
-    SimulatedRepeat,
     evaluate,
-    evaluate_repeats,
     judge,
     narrowest_margin,
     result_document,
@@ -20,9 +18,17 @@ from uictest.judging.evaluation import (
 from uictest.judging.evaluation.verdict import READINGS
 
 from ..measures.catalogue.conftest import sliding_stop, slow_times, stop, wheelsets
-from .conftest import case, criterion, scenario, shipped, verdict_of
+from .conftest import case, criterion, evaluate_stops, scenario, shipped, verdict_of
 
 KMH = 1 / 3.6
+SHARE = criterion(
+    "sliding_share",
+    lower="35 %",
+    definition={
+        "sliding_below": {"value": "90 %", "range": ["90 %", "90 %"]},
+        "end_speed": {"value": "60 km/h", "range": ["60 km/h", "60 km/h"]},
+    },
+)
 NAMES = ["half-at-once", "each-wheelset", "depth"]
 
 
@@ -37,7 +43,7 @@ def over_readings(verdict):
     return next(each for each in verdict.sensitivity if each.definition == READINGS)
 
 
-def test_three_readings_stand_side_by_side_and_the_first_decides():
+def test_three_readings_say_at_which_speeds_they_look_and_the_first_decides():
     verdict = minimum_slide(sliding_stop(share=0.5), wheelsets(0.6, 0.6, 0.05, 0.05))
     assert [each.id for each in verdict.readings] == NAMES
     assert [each.decides for each in verdict.readings] == [True, False, False]
@@ -47,6 +53,12 @@ def test_three_readings_stand_side_by_side_and_the_first_decides():
     assert verdict.value == verdict.readings[0].value
     assert not over_readings(verdict).flips
     assert verdict.steady
+    for share in (0.1, 0.5):
+        verdict = minimum_slide(sliding_stop(share=share), wheelsets(0.6, 0.6, 0.05, 0.05))
+        at_once, each_wheelset, depth = (each.reason for each in verdict.readings)
+        assert "from the brake command to 60 km/h" in at_once
+        assert "from the brake command to 60 km/h" in each_wheelset
+        assert "above 30 km/h" in depth
 
 
 @pytest.mark.parametrize(
@@ -90,15 +102,6 @@ def test_a_reading_that_disagrees_leaves_no_margin_and_is_written_and_read_back(
     assert read.criteria == result.criteria
 
 
-def test_every_reading_says_at_which_speeds_it_looks():
-    for share in (0.1, 0.5):
-        verdict = minimum_slide(sliding_stop(share=share), wheelsets(0.6, 0.6, 0.05, 0.05))
-        at_once, each_wheelset, depth = (each.reason for each in verdict.readings)
-        assert "from the brake command to 60 km/h" in at_once
-        assert "from the brake command to 60 km/h" in each_wheelset
-        assert "above 30 km/h" in depth
-
-
 def test_definitions_of_every_reading_run_through_their_range():
     """Half at once slides below 90 and 95 % of the speed only."""
     table = slow_times(0.5)
@@ -121,7 +124,7 @@ def test_a_stop_from_sixty_or_below_is_not_applicable(initial):
     """Also where the observation ends early: nothing that follows would give it a share."""
     for running in ({}, {"stopped": 0.0, "end_speed": 5.0}):
         records = stop(initial_speed=initial * KMH, **running), wheelsets(0.5, 0.5, 0.5, 0.5)
-        assert verdict_of(_share_of(criterion), *records).status == "not_applicable"
+        assert verdict_of(SHARE, *records).status == "not_applicable"
 
 
 def test_a_stop_that_never_came_down_to_sixty_is_inconclusive():
@@ -129,11 +132,11 @@ def test_a_stop_that_never_came_down_to_sixty_is_inconclusive():
     reached = stop().reached_time.copy()
     reached[:6] = math.nan
     running = {"stopped": 0.0, "end_speed": 18.0, "half_slow_time": slow_times(0.9)}
-    share, records = _share_of(criterion), wheelsets(0.9, 0.9, 0.9, 0.9)
-    verdict = verdict_of(share, stop(**running, reached_time=reached), records)
+    records = wheelsets(0.9, 0.9, 0.9, 0.9)
+    verdict = verdict_of(SHARE, stop(**running, reached_time=reached), records)
     assert verdict.status == "inconclusive"
     assert "60 km/h" in verdict.reason
-    verdict = verdict_of(share, stop(**running), records)
+    verdict = verdict_of(SHARE, stop(**running), records)
     assert (verdict.status, verdict.value) == ("pass", 90.0)
 
 
@@ -158,15 +161,9 @@ def test_no_reading_passes_on_what_is_no_number(nan):
 
 def test_repeated_stops_are_read_together():
     resolved = scenario(shipped("uic-541-05-appendix-b"), condition="wet")
-    resolved.outcome_of_repeats = "all"
-    together = case(resolved)
-    repeats = []
-    for seed, share in enumerate((0.4, 0.5, 0.8)):
-        records = sliding_stop(share=share), wheelsets(0.2, 0.2, 0.2, 0.2)
-        repeats.append(SimulatedRepeat(seed, evaluate(together, *records, detail="status"), *records))
-    verdict = next(
-        each for each in evaluate_repeats(together, repeats).criteria if each.id == "minimum-slide"
-    )
+    slid = wheelsets(0.2, 0.2, 0.2, 0.2)
+    result = evaluate_stops(resolved, *((sliding_stop(share=share), slid) for share in (0.4, 0.5, 0.8)))
+    verdict = next(each for each in result.criteria if each.id == "minimum-slide")
     assert [(each.status, each.value) for each in verdict.readings] == [
         ("pass", pytest.approx(50.0)),
         ("pass", pytest.approx(75.0)),
@@ -174,11 +171,3 @@ def test_repeated_stops_are_read_together():
     ]
     assert over_readings(verdict).flips
     assert verdict.reason.endswith("against > 35 % (from the brake command to 60 km/h)")
-
-
-def _share_of(criterion):
-    definition = {
-        "sliding_below": {"value": "90 %", "range": ["90 %", "90 %"]},
-        "end_speed": {"value": "60 km/h", "range": ["60 km/h", "60 km/h"]},
-    }
-    return criterion("sliding_share", lower="35 %", definition=definition)

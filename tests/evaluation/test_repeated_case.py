@@ -29,7 +29,7 @@ from uictest.judging.evaluation.repeats import RepeatedStop, seeds_text
 from uictest.plans.scenario import PASS, ShareOfStops, expectation_of
 
 from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
-from .conftest import case, criterion, profile, scenario
+from .conftest import case, criterion, evaluate_stops, profile, scenario
 
 ALL, MEDIAN = OutcomeRule("all"), OutcomeRule("median")
 LETTERS = {"p": "pass", "f": "fail", "i": "invalid", "u": "inconclusive", "s": "skipped", "e": "error"}
@@ -102,21 +102,18 @@ def test_a_share_of_the_stops_must_come_out_as_expected(letters, expect, share, 
     assert outcome(letters, expect, at_least(share)) == came_out
 
 
-def test_the_median_takes_the_outcome_of_its_verdicts_but_an_error_stays_one():
-    assert outcome_over_stops(stops("fff"), PASS, MEDIAN, ("pass", "")) == ("pass", "")
-    assert outcome_over_stops(stops("pep"), PASS, MEDIAN, ("pass", "")) == (
-        "error",
-        "error in 1 of 3 stops (seed 1), with seed 1: why 1",
-    )
-
-
-def test_the_reason_names_the_stops():
+def test_the_reason_names_the_stops_and_the_median_takes_the_outcome_of_its_verdicts_but_errors():
     reason = outcome_over_stops(stops("fpfpfffi"), PASS, ALL, ("pass", ""))[1]
     assert reason == (
         "fail in 5 of 8 stops (seeds 0, 2, 4..6), with seed 0: why 0;"
         " invalid in 1 of 8 stops (seed 7), with seed 7: why 7"
     )
     assert outcome_over_stops(stops("ppp"), PASS, ALL, ("pass", "")) == ("pass", "")
+    assert outcome_over_stops(stops("fff"), PASS, MEDIAN, ("pass", "")) == ("pass", "")
+    assert outcome_over_stops(stops("pep"), PASS, MEDIAN, ("pass", "")) == (
+        "error",
+        "error in 1 of 3 stops (seed 1), with seed 1: why 1",
+    )
 
 
 @given(
@@ -156,7 +153,7 @@ def together(decisions, rule):
     return decision_over_stops(decisions, DISTANCE, rule)
 
 
-def test_a_criterion_has_the_median_and_is_judged_by_the_rule():
+def test_a_criterion_has_the_median_and_counts_and_is_judged_by_the_rule():
     values = [450.0, 460.0, 495.0]
     decisions = [decided(value) for value in values]
     assert [together(decisions, rule).status for rule in (ALL, MEDIAN, at_least(0.6), at_least(0.7))] == [
@@ -167,18 +164,20 @@ def test_a_criterion_has_the_median_and_is_judged_by_the_rule():
         "2 of 3 stops pass (3 needed): median 460 in 450 .. 495, against 440 .. 490 m"
     )
     assert together(decisions, MEDIAN).reason.startswith("2 of 3 stops pass: median")
+    counts = over_stops([decided(450.0), decided(495.0), decided(None, "not_applicable")])
+    assert (counts.passed, counts.failed, counts.not_applicable, counts.stops) == (1, 1, 1, 3)
+    assert (counts.lowest, counts.highest) == (450.0, 495.0)
+    assert counts.turns
+    assert not over_stops([decided(450.0), decided(460.0)]).turns
 
 
-def test_stops_that_a_criterion_does_not_apply_to_do_not_count():
+def test_stops_that_a_criterion_does_not_apply_to_do_not_count_and_where_all_agree_so_does_the_median():
     skipped = decided(None, "not_applicable")
     both = together([decided(450.0), skipped, decided(460.0)], ALL)
     assert (both.status, both.value) == ("pass", 455.0)
     assert both.reason.startswith("2 of 2 stops pass (2 needed), not applicable to 1 more: ")
     assert together([skipped, skipped], ALL) == skipped
-
-
-def test_where_all_stops_agree_so_does_the_median():
-    """Two stops too short and two too long have a median inside the limits, and still all fail."""
+    # Two stops too short and two too long have a median inside the limits, and still all fail.
     decisions = [decided(value) for value in (400.0, 410.0, 520.0, 530.0)]
     assert together(decisions, MEDIAN).value == 465.0
     assert together(decisions, MEDIAN).status == "fail"
@@ -228,14 +227,6 @@ def test_inconclusive_stops_decide_only_where_they_could_make_up_the_number(stat
     value = {"pass": 450.0, "fail": 500.0, "inconclusive": None}
     decisions = [decided(value[each], each) for each in statuses]
     assert together(decisions, at_least(share)).status == status
-
-
-def test_counts_and_range_over_stops():
-    counts = over_stops([decided(450.0), decided(495.0), decided(None, "not_applicable")])
-    assert (counts.passed, counts.failed, counts.not_applicable, counts.stops) == (1, 1, 1, 3)
-    assert (counts.lowest, counts.highest) == (450.0, 495.0)
-    assert counts.turns
-    assert not over_stops([decided(450.0), decided(460.0)]).turns
 
 
 @pytest.mark.parametrize(
@@ -396,16 +387,11 @@ def test_definitions_run_through_their_range_in_all_stops_at_once():
     """
     phase = {"first_phase_duration": {"value": "4 s", "range": ["2 s", "5 s"]}}
     tested = criterion("initial_adhesion", upper="0.08 g", definition=phase)
-    resolved = scenario(profile(tested), condition="wet")
-    resolved.outcome_of_repeats = EVERY
-    together = case(resolved)
     hard_first, hard_last = [0.12, *[0.06] * 9], [*[0.06] * 3, *[0.12] * 7]
-    repeats = []
-    for seed, decelerations in enumerate((hard_first, hard_last)):
-        speed = 33.0 - 9.80665 * np.concatenate([[0.0], np.cumsum(decelerations)])
-        records = sliding_stop(speed_after_sliding=speed), wheelsets(0.2, 0.2, 0.2, 0.2)
-        repeats.append(SimulatedRepeat(seed, evaluate(together, *records, detail="status"), *records))
-    (verdict,) = evaluate_repeats(together, repeats).criteria
+    speeds = [33.0 - 9.80665 * np.cumsum([0.0, *each]) for each in (hard_first, hard_last)]
+    slid = wheelsets(0.2, 0.2, 0.2, 0.2)
+    stops = ((sliding_stop(speed_after_sliding=speed), slid) for speed in speeds)
+    (verdict,) = evaluate_stops(scenario(profile(tested), condition="wet"), *stops).criteria
     assert verdict.status == "pass"
     assert verdict.value == pytest.approx((0.075 + 0.075) / 2)
     (sensitivity,) = verdict.sensitivity

@@ -62,7 +62,7 @@ REPEATS = Repeats(
 )
 
 
-def test_shares_count_the_stops():
+def test_shares_count_the_stops_a_verdict_that_turns_is_not_steady_and_the_first_stop_is_drawn():
     assert REPEATS.passed == 1
     assert REPEATS.share == pytest.approx(1 / 3)
     low, high = REPEATS.interval
@@ -76,6 +76,15 @@ def test_shares_count_the_stops():
     ]
     assert REPEATS.values("braking_distance_m") == [460.0, 470.0]
     assert REPEATS.values("locked_time_s", wheelset=4) == [7.0, 8.0]
+    (verdict,) = result(REPEATS).criteria
+    assert not verdict.steady
+    assert replace(verdict, over_stops=OverStops(passed=2, lowest=460.0, highest=470.0)).steady
+    assert replace(verdict, over_stops=None).steady
+    drawn = result(REPEATS).drawn_stop
+    assert (drawn.outcome, drawn.repeats) == ("pass", None)
+    (verdict,) = drawn.criteria
+    assert (verdict.value, verdict.over_stops, verdict.definition) == (460.0, None, {"clause": "B"})
+    assert result(None).drawn_stop == result(None)
 
 
 def test_stops_none_of_which_was_judged_have_no_share():
@@ -101,16 +110,6 @@ def result(repeats):
     return CaseResult(*own, repeats=repeats)
 
 
-def test_results_come_back_from_their_document_with_all_stops():
-    before = result(REPEATS)
-    text = to_json(result_document([before]))
-    assert results_of(json.loads(text)) == [before]
-    written = json.loads(text)["cases"][0]["repeats"]
-    assert list(written) == ["rule", "required_share", "passed", "share", "interval", "stops"]
-    assert written["passed"] == 1
-    assert written["interval"] == list(REPEATS.interval)
-
-
 def test_a_case_with_one_stop_has_nothing_of_repeats_and_what_is_read_back_is_checked():
     single = replace(result(None), criteria=stop(0, "pass").criteria)
     text = to_json(result_document([single]))
@@ -123,15 +122,10 @@ def test_a_case_with_one_stop_has_nothing_of_repeats_and_what_is_read_back_is_ch
         document["cases"][0]["repeats"] = {**repeats, **broken}
         with pytest.raises(ValueError, match="repeats"):
             results_of(document)
-
-
-def test_a_verdict_that_turns_is_not_steady_and_the_first_stop_is_drawn():
-    (verdict,) = result(REPEATS).criteria
-    assert not verdict.steady
-    assert replace(verdict, over_stops=OverStops(passed=2, lowest=460.0, highest=470.0)).steady
-    assert replace(verdict, over_stops=None).steady
-    drawn = result(REPEATS).drawn_stop
-    assert (drawn.outcome, drawn.repeats) == ("pass", None)
-    (verdict,) = drawn.criteria
-    assert (verdict.value, verdict.over_stops, verdict.definition) == (460.0, None, {"clause": "B"})
-    assert result(None).drawn_stop == result(None)
+    before = result(REPEATS)
+    text = to_json(result_document([before]))
+    assert results_of(json.loads(text)) == [before]
+    written = json.loads(text)["cases"][0]["repeats"]
+    assert list(written) == ["rule", "required_share", "passed", "share", "interval", "stops"]
+    assert written["passed"] == 1
+    assert written["interval"] == list(REPEATS.interval)

@@ -25,21 +25,9 @@ from uictest.judging.evaluation.verdict import relative_margin
 from uictest.plans.scenario import PASS
 
 # The interface's names; `sensitivity` says what definitions do to it, the last two as data what was judged.
-FIELDS = [
-    "id",
-    "layer",
-    "value",
-    "unit",
-    "lower",
-    "upper",
-    "margin",
-    "verdict",
-    "reason",
-    "definition",
-    "sensitivity",
-    "measure",
-    "definitions",
-]
+FIELDS = """
+id layer value unit lower upper margin verdict reason definition sensitivity measure definitions
+"""
 VERDICTS = TypeAdapter(list[WrittenVerdict], config=ConfigDict(extra="forbid"))
 SLIDE = Sensitivity(
     "low_speed_cutoff",
@@ -51,19 +39,16 @@ SLIDE = Sensitivity(
 STEADY = Sensitivity("first_phase_duration", "s", 2.0, 5.0, (VerdictInterval(2.0, 5.0, "pass"),))
 
 
+WHOLE = Verdict(
+    *("minimum-slide", "validity", 80.0, "%", 35.0, None, 45.0, "pass", "2 of 4", {"clause": "Appendix B"}),
+    sensitivity=(SLIDE, STEADY),
+    measure="maximum_slide",
+    definitions=(AppliedDefinition("low_speed_cutoff", 30 / 3.6, "m/s", "chosen", 10 / 3.6, 60 / 3.6),),
+)
+
+
 def verdict(**changes):
-    fields = {
-        "id": "minimum-slide",
-        "layer": "validity",
-        "value": 80.0,
-        "unit": "%",
-        "lower": 35.0,
-        "upper": None,
-    }
-    fields |= {"margin": 45.0, "status": "pass", "reason": "2 of 4", "definition": {"clause": "Appendix B"}}
-    cutoff = AppliedDefinition("low_speed_cutoff", 30 / 3.6, "m/s", "chosen", 10 / 3.6, 60 / 3.6)
-    fields |= {"measure": "maximum_slide", "definitions": (cutoff,)}
-    return Verdict(**{**fields, "sensitivity": (SLIDE, STEADY), **changes})
+    return replace(WHOLE, **changes)
 
 
 def form_of(verdict):
@@ -76,7 +61,7 @@ def read_back(form):
 
 def test_the_json_form_has_the_fields_of_the_interface_and_comes_back_also_in_its_first_version():
     form = form_of(verdict())
-    assert list(form) == [*FIELDS, "requirements"]
+    assert list(form) == [*FIELDS.split(), "requirements"]
     assert read_back(form) == verdict()
     del form["measure"], form["definitions"]
     assert read_back(form) == verdict(measure="", definitions=())
@@ -114,27 +99,18 @@ FLIPPING = Sensitivity(
 )
 
 
+DISTANCE = Verdict("distance", "requirement", 450.0, "m", None, 500.0, 50.0, "pass", "")
+
+
 def written_verdict(**changes):
-    content = {
-        "id": "distance",
-        "layer": "requirement",
-        "value": 450.0,
-        "unit": "m",
-        "lower": None,
-        "upper": 500.0,
-        "margin": 50.0,
-        "status": "pass",
-        "reason": "",
-        "definition": {},
-    }
-    return Verdict(**(content | changes))
+    return replace(DISTANCE, **changes)
 
 
 def result(*criteria):
     return CaseResult("stop", "stop.yaml", {}, PASS, "pass", criteria=criteria)
 
 
-def test_a_margin_counts_over_its_bound_and_a_passed_one_that_hangs_on_a_definition_has_none():
+def test_a_margin_counts_over_its_bound_unless_it_hangs_on_a_definition_and_the_narrowest_is_named():
     assert relative_margin(written_verdict()) == pytest.approx(0.1)
     assert relative_margin(written_verdict(margin=-25.0, status="fail")) == pytest.approx(-0.05)
     assert relative_margin(written_verdict(sensitivity=(FLIPPING,))) == 0.0
@@ -147,9 +123,6 @@ def test_a_margin_counts_over_its_bound_and_a_passed_one_that_hangs_on_a_definit
         id="standstill", unit="1", value=0.0, lower=1.0, upper=None, margin=-1.0, status="fail"
     )
     assert relative_margin(missed) == -1.0
-
-
-def test_the_narrowest_of_several_is_named():
     close = written_verdict(id="slide", unit="%", value=34.0, upper=35.0, margin=1.0)
     assert narrowest_margin(result(written_verdict(), close)) == (pytest.approx(1.0 / 35.0), "slide")
     assert narrowest_margin(result()) == (None, "")

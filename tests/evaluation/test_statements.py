@@ -218,13 +218,6 @@ def test_what_is_expected_of_the_own_controller_and_allowed_to_another(expect, m
         assert not _result(spoiled, own.of_another_controller()).as_expected
 
 
-def test_a_rig_that_is_wrong_is_never_what_an_invalid_stop_was_expected_for():
-    for layer in ("rig", "record"):
-        assert not _result(
-            [verdict(layer, "fail"), verdict("validity", "fail", "A")], Expectation("invalid")
-        ).met
-
-
 @pytest.mark.parametrize("expect", [PASS, Expectation("skipped")])
 def test_pass_and_skipped_are_expected_of_every_controller(expect):
     assert expect.of_another_controller() == expect
@@ -236,12 +229,6 @@ def test_nothing_that_was_not_judged_is_expected(verdicts, outcome):
         own = expectation_of(expect)
         assert not is_expected(outcome, verdicts, own)
         assert not is_expected(outcome, verdicts, own.of_another_controller())
-
-
-def test_a_requirement_that_does_not_stand_is_no_miss_beyond_the_names():
-    verdicts = [verdict("validity", "fail", "A"), verdict("requirement", "fail", "a", in_valid_test=True)]
-    assert _result(verdicts, expectation_of(INVALID_A)).met
-    assert not _result(verdicts, expectation_of(FAIL_A)).met
 
 
 def test_strict_asks_for_names_and_for_nothing_that_is_only_allowed():
@@ -264,6 +251,9 @@ def test_what_is_allowed_is_what_is_named_and_missed_and_only_where_it_is_all():
     assert _result(both, allowance).allowed == (both[0],)
     assert _result(both, expectation_of(FAIL_A_B)).allowed == ()
     assert _result([*both, verdict("requirement", "fail", "c")], allowance).allowed == ()
+    verdicts = [verdict("validity", "fail", "A"), verdict("requirement", "fail", "a", in_valid_test=True)]
+    assert _result(verdicts, expectation_of(INVALID_A)).met
+    assert not _result(verdicts, expectation_of(FAIL_A)).met
 
 
 @given(judged(), st.sampled_from(["pass", "fail", "skipped", FAIL_A, BOTH]), st.booleans())

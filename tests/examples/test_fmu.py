@@ -28,19 +28,21 @@ controller: {fmu: wsp.fmu, parameters: {slip_threshold: 0.9993, vent_deceleratio
 def fmu(request, threshold_library, compiler, tmp_path_factory):
     """examples/threshold-c, built and exported."""
     path = tmp_path_factory.mktemp("fmu") / "wsp.fmu"
-    program = "from uictest.cli import main; main()"
-    arguments = ["export-controller", "threshold.yaml", "-o", path, "--fmi", request.param]
-    command = [sys.executable, "-c", program, *arguments]
+    command = [*PROGRAM, "export-controller", "threshold.yaml", "-o", path, "--fmi", request.param]
     environment = {**os.environ, "CC": compiler}
     subprocess.run(command, cwd=threshold_library.parent, check=True, env=environment)
     return path
 
 
-@pytest.fixture
+PROGRAM = [sys.executable, "-c", "from uictest.cli import main; main()"]
+
+
+@pytest.fixture(autouse=True)
 def scenario(tmp_path):
-    """A stop with the FMU beside it."""
+    """A stop with an FMU beside it, which is none until it is copied."""
     path = tmp_path / "wsp.yaml"
     path.write_text(STOP)
+    path.with_suffix(".fmu").write_text("no FMU")
     return path
 
 
@@ -79,10 +81,7 @@ def test_it_runs_in_a_child_process_and_leaves_no_file(fmu, scenario, tmp_path, 
 
 def test_check_reads_no_fmu(tmp_path):
     """It takes the SHA-256 alone: a file that is no FMU at all passes."""
-    (tmp_path / "wsp.yaml").write_text(STOP)
-    (tmp_path / "wsp.fmu").write_text("no FMU")
-    command = [sys.executable, "-c", "from uictest.cli import main; main()", "check", "wsp.yaml"]
-    checked = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    checked = subprocess.run([*PROGRAM, "check", "wsp.yaml"], cwd=tmp_path, capture_output=True, text=True)
     assert (checked.returncode, checked.stderr) == (0, "uictest: 1 scenario with 1 case, no error\n")
 
 
@@ -90,7 +89,6 @@ def test_a_run_in_this_process_leaves_no_file(fmu, scenario, tmp_path):
     shutil.copy(fmu, tmp_path)
     folder = tmp_path / "temporary"
     folder.mkdir()
-    program = "from uictest.cli import main; main()"
-    command = [sys.executable, "-c", program, "run", scenario.name, "--in-process"]
+    command = [*PROGRAM, "run", scenario.name, "--in-process"]
     subprocess.run(command, cwd=tmp_path, env={**os.environ, "TMPDIR": str(folder)}, check=True)
     assert list(folder.iterdir()) == []

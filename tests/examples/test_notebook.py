@@ -25,7 +25,7 @@ def texts(outputs):
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_what_is_stored_is_what_the_code_gives(path):
+def test_it_is_a_valid_notebook_that_names_no_machine_and_stores_what_its_code_gives(path):
     """Up to the digits: figures move with calibration, and docs/tools/notebooks.py renews them."""
     from consoles import shape
     from notebooks import executed
@@ -35,10 +35,6 @@ def test_what_is_stored_is_what_the_code_gives(path):
         stored = [shape(text) for text in texts(cell["outputs"])]
         assert stored == [shape(text) for text in texts(outputs)], "run docs/tools/notebooks.py"
     assert sorted(path.parent.iterdir()) == before
-
-
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_it_is_a_valid_notebook_that_names_no_machine(path):
     nbformat.validate(nbformat.read(path, as_version=4))
     text = path.read_text("utf-8")
     assert str(REPOSITORY) not in text

@@ -70,11 +70,9 @@ def printed(script, *arguments):
 
 def test_the_table_has_both_controllers_on_every_rail(copied):
     few = ["-k", "seed=11 and (friction=0.13 or friction=0.15)", "-q", "--report", "csv"]
-    for name in ("threshold", "pi"):
-        controller = "threshold" if name == "threshold" else "pi/pi.yaml"
-        execute(
-            ["run", "pi/judging.yaml", "--set", f"controller={controller}", "-o", name, "--in-process", *few]
-        )
+    for name, controller in (("threshold", "threshold"), ("pi", "pi/pi.yaml")):
+        chosen = ["--set", f"controller={controller}", "-o", name]
+        execute(["run", "pi/judging.yaml", *chosen, "--in-process", *few])
     lines = printed(copied / "table.py", "threshold/latest", "pi/latest")
     assert [line.split(" | ")[:2] for line in lines[2:]] == [
         [f"| {friction}", name] for friction in ("0.13", "0.15") for name in ("threshold", "pi")
@@ -83,7 +81,7 @@ def test_the_table_has_both_controllers_on_every_rail(copied):
     assert all(line.endswith("0 of 1 |") for line in lines[2:])
 
 
-def test_the_best_draws_meet_all_criteria(copied):
+def test_the_best_draws_meet_all_criteria_and_its_files_are_valid(copied):
     columns = "parameters.rail.friction,parameters.controller.parameters.kp,met,braking_distance_m"
     rows = [(0.06, 1, "true", 900), (0.1, 1, "true", 700), (0.06, 2, "true", 800), (0.1, 2, "false", 500)]
     rows += [(0.06, 3, "true", 850), (0.1, 3, "true", 650)]
@@ -92,7 +90,4 @@ def test_the_best_draws_meet_all_criteria(copied):
     assert lines[0].startswith("2 of 3 draws meet all criteria")
     expected = np.mean([850 / 850, 650 / 650])
     assert lines[1:] == [f"{expected:.3f}  kp: 3", f"{np.mean([900 / 850, 700 / 650]):.3f}  kp: 1"]
-
-
-def test_its_files_are_valid(copied):
     assert execute(["check", "pi"]) == 0

@@ -66,6 +66,6 @@ def test_a_controller_in_c_that_fails_ends_its_stop_alone(serve, fault, message)
         assert rig.simulate(case(f"controller={{connect: '{address}'}}")).controller_version == "1.2"
 
 
-@pytest.mark.parametrize("name", ["serve.c", "wsp.c", "wsp.py"])
-def test_a_program_is_short(name):
-    assert len((FOLDER / name).read_text("utf-8").splitlines()) < LONGEST
+def test_a_program_is_short():
+    for name in ("serve.c", "wsp.c", "wsp.py"):
+        assert len((FOLDER / name).read_text("utf-8").splitlines()) < LONGEST, name

@@ -178,8 +178,7 @@ def asked(instance, cycle, speeds, valid):
     ],
 )
 def test_parameters_that_are_none_are_named(threshold_library, parameters_of, shipped, parameters, reason):
-    changed = {
-        name: value for name, value in (parameters_of(shipped[0]) | parameters).items() if value is not None
-    }
+    stated = parameters_of(shipped[0]) | parameters
+    changed = {name: value for name, value in stated.items() if value is not None}
     with pytest.raises(ControllerError, match=f"^uictest_create failed: {reason}$"):
         opened_library(threshold_library, changed, 30.0)

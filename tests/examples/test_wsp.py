@@ -99,18 +99,10 @@ def _small(planned):
         for stop in planned.stops
         if round(stop.speed * 3.6) == 80 and stop.case.scenario.rail.friction in (None, 0.084)
     ]
-    fewer = {"dry": 1, "wet": 6}
-    return replace(
-        planned,
-        stops=tuple(
-            replace(stop, case=replace(stop.case, scenario=_repeated(stop.case.scenario, fewer[stop.role])))
-            for stop in stops
-        ),
-    )
-
-
-def _repeated(resolved, repeat):
-    return resolved.model_copy(update={"repeat": repeat})
+    fewer = {"dry": {"repeat": 1}, "wet": {"repeat": 6}}
+    scenarios = [stop.case.scenario.model_copy(update=fewer[stop.role]) for stop in stops]
+    cases = [replace(stop.case, scenario=each) for stop, each in zip(stops, scenarios, strict=True)]
+    return replace(planned, stops=tuple(map(lambda stop, case: replace(stop, case=case), stops, cases)))
 
 
 @pytest.mark.slow

@@ -1,10 +1,11 @@
-"""What each fault does to the rig, as its description says it: values as users write them, SI in the rig."""
+"""What each fault of the catalogue does to the rig: values as users write them, SI in the rig."""
 
 import math
 
 import pytest
 
-from uictest.plans.faults import FAULT_KINDS, Effects
+from uictest.core.units import KINDS
+from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR, Effects
 from uictest.plans.scenario.yaml import parse_quantity
 
 TRUE = ("speed_valid", "speed_factor", "pressure_factor", "train_speed_valid", "train_speed_factor")
@@ -15,6 +16,8 @@ NOTHING = {
 }
 """Sensors that read true, valves that open and close as commanded, no leak, a controller that is heard."""
 NO_VALUE = ""
+ROWS = list(FAULT_KINDS.values())
+NAMES = ["-".join(key) for key in FAULT_KINDS]
 FAULTS = [
     ("speed-sensor", "lost", "36 km/h", {"speed_valid": 0.0, "speed_factor": 0.0, "speed_offset": 10.0}),
     ("speed-sensor", "lost", NO_VALUE, {"speed_valid": 0.0, "speed_factor": 0.0}),
@@ -77,7 +80,7 @@ def test_every_fault_is_held_to_its_description():
     assert {(part, name, value != NO_VALUE) for part, name, value, _ in FAULTS} == ways
 
 
-@pytest.mark.parametrize("row", FAULT_KINDS.values(), ids=["-".join(key) for key in FAULT_KINDS])
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
 def test_no_value_in_range_is_beyond_what_equations_hold_for(row):
     """A way is open by 0 to 1, a share of readings is one, air leaks out and not in, time passes."""
     if row.value is None:
@@ -90,3 +93,26 @@ def test_no_value_in_range_is_beyond_what_equations_hold_for(row):
         not_negative = ("speed_factor", "speed_jump", "lost_teeth", "travel_time", "tank_leak", "line_leak")
         for name in (*not_negative, "pressure_factor", "release_time"):
             assert getattr(effects, name) >= 0.0
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_a_row_explains_its_value_has_a_range_of_its_kind_and_says_whose_it_is(row):
+    assert row.description.endswith(".")
+    assert ("`value`" in row.description) == (row.value is not None)
+    if row.value is not None:
+        assert row.value.kind in KINDS
+        low, high = (parse_quantity(text, row.value.kind) for text in (row.value.at_least, row.value.at_most))
+        assert low < high
+    of_train = ("brake-line", "controller", "dynamic-brake", "track-brake", "train-speed")
+    assert row.of_wheelset == (row.part not in of_train)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_every_fault_changes_something_and_a_lost_sensor_alone_reports_itself(row):
+    """With its largest value, and without one where it needs none."""
+    values = [None] if row.value is None or row.value.without else []
+    if row.value is not None:
+        values += [float(parse_quantity(row.value.at_most, row.value.kind))]
+    effects = [row.effects(value) for value in values]
+    assert Effects() not in effects
+    assert {each.speed_valid == 0.0 for each in effects} == {(row.part, row.name) == (SPEED_SENSOR, "lost")}

@@ -1,4 +1,4 @@
-""""""
+"""Maps from the channels of a file to ours: read, refused at their place, proposed."""
 
 import numpy as np
 import pytest
@@ -26,15 +26,6 @@ def _map(folder, text, name="mine.yaml"):
 def _contents(**channels):
     arrays = {name: np.array(samples) for name, (samples, _) in channels.items()}
     return Contents((Group("", arrays, {name: unit for name, (_, unit) in channels.items() if unit}),))
-
-
-def test_presets_load_and_every_channel_is_canonical():
-    assert presets() == ("common-names", "uictest")
-    for name in presets():
-        loaded, inputs = load_map(name)
-        assert loaded.sources.keys() <= CHANNEL_UNITS.keys()
-        assert next(iter(inputs)) == f"library:channel_maps/{name}.yaml"
-    assert load_map("uictest")[0].sources.keys() == CHANNEL_UNITS.keys()
 
 
 def test_scale_offset_sign_and_unit(tmp_path):
@@ -68,12 +59,10 @@ def test_wheelsets_are_spelled_out_and_a_child_changes_its_parent(tmp_path):
 def test_states_by_name(tmp_path):
     text = "channels: {time: t, speed: v, valve_command_1: {source: MV, states: {Lüften: 2, Halten: 1}}}\n"
     channel_map = load_map(_map(tmp_path, text))[0]
-    contents = _contents(
-        t=([0, 1, 2, 3], "s"), v=([1.0] * 4, "m/s"), MV=(["fill", "Lüften", "Halten", "1"], "")
-    )
-    np.testing.assert_array_equal(
-        select_channels(contents, channel_map)["valve_command_1"].samples, [0, 2, 1, 1]
-    )
+    states = ["fill", "Lüften", "Halten", "1"]
+    contents = _contents(t=([0, 1, 2, 3], "s"), v=([1.0] * 4, "m/s"), MV=(states, ""))
+    command = select_channels(contents, channel_map)["valve_command_1"].samples
+    np.testing.assert_array_equal(command, [0, 2, 1, 1])
     contents = _contents(t=([0, 1], "s"), v=([1.0] * 2, "m/s"), MV=(["fill", "auf"], ""))
     with pytest.raises(MapError, match="'auf', which is no state: name it in `states`"):
         select_channels(contents, channel_map)
@@ -92,30 +81,41 @@ def test_states_by_name(tmp_path):
         ("extends: nothing\nchannels: {speed: v}\n", "no channel map 'nothing'"),
         ("channels: {speed: !!python/name:os.system v}\n", "tag"),
         ("channels: &a {speed: *a}\n", ""),
+        ("channels: {speed: v}\ncsv: {encoding: cp12521}\n", "unknown encoding 'cp12521'"),
+        ("channels: {speed: v}\ncsv: {encoding: base64}\n", "unknown encoding 'base64'"),
+        ('channels: {speed: v}\ncsv: {decimal: ",", thousands: ","}\n', "',' is already the decimal sign"),
     ],
 )
 def test_a_wrong_map_is_refused_at_its_place(tmp_path, text, message):
     with pytest.raises(ScenarioErrors) as caught:
         load_map(_map(tmp_path, text))
     assert message in str(caught.value)
-    assert "mine.yaml:" in str(caught.value)
+    assert f"mine.yaml:{4 if 'csv' in text else ''}" in str(caught.value)
 
 
-def test_a_name_that_is_no_map():
+def test_presets_load_and_every_channel_is_canonical():
+    assert presets() == ("common-names", "uictest")
+    for name in presets():
+        loaded, inputs = load_map(name)
+        assert loaded.sources.keys() <= CHANNEL_UNITS.keys()
+        assert next(iter(inputs)) == f"library:channel_maps/{name}.yaml"
+    assert load_map("uictest")[0].sources.keys() == CHANNEL_UNITS.keys()
     with pytest.raises(KeyError):
         load_map("nothing")
 
 
-def test_what_does_not_fit_the_file_is_told(tmp_path):
-    plain = load_map("uictest")[0]
-    with pytest.raises(MapError, match=r"no channel for 'speed'.*'sped'"):
-        select_channels(_contents(time=([0.0, 1.0], "s"), sped=([1.0, 1.0], "m/s")), plain)
-    with pytest.raises(MapError, match="does not state the unit of 'speed'"):
-        select_channels(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "")), plain)
-    with pytest.raises(MapError, match="has the unit 'furlong'; accepted"):
-        select_channels(_contents(time=([0.0, 1.0], "s"), speed=([1.0, 1.0], "furlong")), plain)
-    with pytest.raises(MapError, match="has no time axis"):
-        select_channels(_contents(speed=([1.0, 1.0], "m/s")), plain)
+@pytest.mark.parametrize(
+    ("channels", "message"),
+    [
+        ({"time": (TIME, "s"), "sped": (TIME, "m/s")}, r"no channel for 'speed'.*'sped'"),
+        ({"time": (TIME, "s"), "speed": (TIME, "")}, "does not state the unit of 'speed'"),
+        ({"time": (TIME, "s"), "speed": (TIME, "furlong")}, "has the unit 'furlong'; accepted"),
+        ({"speed": (TIME, "m/s")}, "has no time axis"),
+    ],
+)
+def test_what_does_not_fit_the_file_is_told(channels, message):
+    with pytest.raises(MapError, match=message):
+        select_channels(_contents(**channels), load_map("uictest")[0])
 
 
 def test_one_name_in_two_groups_must_be_told_apart(tmp_path):
@@ -142,48 +142,17 @@ def test_a_proposed_map_is_a_map_and_fits(tmp_path):
     assert list(channel_rows(contents))[1] == ("vZug", "km/h", "2", "9 .. 10")
 
 
-def test_a_map_is_proposed_by_names_and_by_units_that_one_channel_has():
-    contents = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"))
-    assert 'speed: "b"' in proposed_map(contents)
-    contents = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"), c=([1.0, 1.0], "km/h"))
-    assert "speed:" not in proposed_map(contents)
-    contents = _contents(T=([20.0, 21.0], "°C"), Zeit=([0.0, 1.0], "s"), v=([10.0, 9.0], "km/h"))
-    assert 'time: "Zeit"' in proposed_map(contents)
-
-
-def test_a_preset_that_fits_is_named():
-    own = _contents(time=([0.0, 1.0], "s"), speed=([10.0, 9.0], "m/s"), slide_1=([0.0, 0.1], ""))
+def test_a_map_is_proposed_by_names_and_by_units_that_one_channel_has_and_a_preset_that_fits_named():
+    a, b, zeit = (TIME, "s"), (TIME, "km/h"), {"Zeit": (TIME, "s")}
+    assert 'speed: "b"' in proposed_map(_contents(a=a, b=b))
+    assert "speed:" not in proposed_map(_contents(a=a, b=b, c=b))
+    assert 'time: "Zeit"' in proposed_map(_contents(T=(TIME, "°C"), v=b, **zeit))
+    own = _contents(time=a, speed=(TIME, "m/s"), slide_1=(TIME, ""))
     assert fitting_preset(own) == "uictest"
-    common = _contents(Zeit=([0.0, 1.0], "s"), vZug=([10.0, 9.0], "km/h"))
-    assert fitting_preset(common) == "common-names"
-    without_unit = _contents(Zeit=([0.0, 1.0], "s"), vZug=([10.0, 9.0], ""))
-    assert fitting_preset(without_unit) is None
-    by_unit_alone = _contents(a=([0.0, 1.0], "s"), b=([10.0, 9.0], "km/h"))
-    assert fitting_preset(by_unit_alone) is None
-    assert fitting_preset(_contents(x=([0.0, 1.0], "V"))) is None
-
-
-@pytest.mark.parametrize(
-    ("section", "message"),
-    [
-        ("encoding: cp12521", "unknown encoding 'cp12521'"),
-        ("encoding: base64", "unknown encoding 'base64'"),
-        ('decimal: ",", thousands: ","', "',' is already the decimal sign"),
-    ],
-)
-def test_a_wrong_dialect_is_refused_in_the_map(tmp_path, section, message):
-    with pytest.raises(ScenarioErrors) as caught:
-        load_map(_map(tmp_path, f"channels: {{speed: v}}\ncsv: {{{section}}}\n"))
-    assert message in str(caught.value)
-    assert "mine.yaml:4:" in str(caught.value)
-
-
-MAP = """schema: uictest/channel-map/1
-name: simulink
-channels:
-  speed: {source: "v[1]", unit: km/h}
-  "wheel_speed_{n}": {source: "v[2]", unit: km/h}
-"""
+    assert fitting_preset(_contents(vZug=b, **zeit)) == "common-names"
+    without_unit, by_unit_alone = _contents(vZug=(TIME, ""), **zeit), _contents(a=a, b=b)
+    for contents in (without_unit, by_unit_alone, _contents(x=(TIME, "V"))):
+        assert fitting_preset(contents) is None
 
 
 def test_columns_of_a_structure_with_time_are_selected_by_their_number_over_its_time(tmp_path):
@@ -191,10 +160,10 @@ def test_columns_of_a_structure_with_time_are_selected_by_their_number_over_its_
     values = np.stack([80.0 - 3.6 * time, 79.0 - 3.6 * time], axis=1)
     path = tmp_path / "stop.mat"
     savemat(path, {"simout": {"time": time[:, None], "signals": {"values": values, "label": "v"}}})
-    (tmp_path / "map.yaml").write_text(MAP)
+    channels = '{speed: {source: "v[1]", unit: km/h}, "wheel_speed_{n}": {source: "v[2]", unit: km/h}}'
     contents = read_here("mat", path, Dialect())
     assert [row[0] for row in channel_rows(contents)] == ["v[1]", "v[2]"]
-    channels = select_channels(contents, load_map(str(tmp_path / "map.yaml"))[0])
+    channels = select_channels(contents, load_map(_map(tmp_path, f"channels: {channels}\n"))[0])
     np.testing.assert_array_equal(channels["speed"].time, time)
     np.testing.assert_allclose(channels["speed"].samples, values[:, 0] / 3.6)
     np.testing.assert_allclose(channels["wheel_speed_3"].samples, values[:, 1] / 3.6)

@@ -12,29 +12,19 @@ from uictest.report import subjects_form
 from uictest.report.run_folder import read_subjects
 
 
-def test_what_is_stated_becomes_a_case():
+def test_what_is_stated_becomes_a_case_and_what_is_not_acceptable_is_refused():
     case = stated_case("run", 20.0, ["rail.condition=wet", "brake.position=P", "criteria=uictest-stop"])
     assert case.scenario.rail.condition.name == "wet"
     assert case.scenario.brake.position == "P"
     assert case.scenario.initial_speed == 20.0
     assert any("rails/wet" in name for name in case.inputs)
-
-
-@pytest.mark.parametrize("statement", ["rail.condition=we", "brake.position=X", "nothing", "seed=1,2"])
-def test_what_is_not_acceptable_is_refused(statement):
-    with pytest.raises(ScenarioErrors):
-        stated_case("run", 20.0, [statement])
+    for statement in ("rail.condition=we", "brake.position=X", "nothing", "seed=1,2"):
+        with pytest.raises(ScenarioErrors):
+            stated_case("run", 20.0, [statement])
 
 
 def test_a_recorded_stop_is_headed_by_its_file_and_by_what_was_read_and_derived(case, channels, prepared):
-    names = (
-        "speed",
-        "wheel_speed_1",
-        "wheel_speed_2",
-        "wheel_speed_3",
-        "wheel_speed_4",
-        "cylinder_pressure_1",
-    )
+    names = ("speed", *(f"wheel_speed_{n}" for n in (1, 2, 3, 4)), "cylinder_pressure_1")
     subject = recorded_description(case, prepared({name: channels[name] for name in names}))
     assert subject.title == "Recorded stop"
     assert subject.recorded["file"] == "stop"
@@ -42,15 +32,13 @@ def test_a_recorded_stop_is_headed_by_its_file_and_by_what_was_read_and_derived(
     assert subject.recorded["distance"] == "integrated from speed"
     assert subject.recorded["sampling"] == "speed every 10 ms"
     assert subject.recorded["trigger"] == "at 0 s, stated by the file"
-    assert "distance" not in recorded_description(case, prepared(channels)).recorded
     assert read_subjects({"subjects": subjects_form({"a": subject})}) == {"a": subject}
-
-
-def test_nothing_of_a_simulated_rig_is_said_of_a_recorded_stop(case, channels, prepared):
     subject = recorded_description(case, prepared(channels))
+    assert "distance" not in subject.recorded
     text = str(subjects_form({"a": subject}))
     for of_the_rig in ("intercity-180", "one-caliper", "threshold", "compensation", "0.08", "ep-disc"):
         assert of_the_rig not in text
+    assert dict(recorded_description(case, None).recorded) == {"file": "stop"}
 
 
 def test_a_condition_that_nobody_stated_is_marked_as_assumed(channels, prepared):
@@ -65,10 +53,6 @@ def test_a_condition_that_nobody_stated_is_marked_as_assumed(channels, prepared)
     assert recorded_description(stated, stop).settings["brake command"] == "80 %"
 
 
-def test_a_record_that_cannot_be_used_has_its_file_all_the_same(case):
-    assert dict(recorded_description(case, None).recorded) == {"file": "stop"}
-
-
 TIME = np.array([0.0, 0.1, 0.2, 0.3, 0.4])
 NAN = float("nan")
 
@@ -78,7 +62,7 @@ def _magnets(hold, vent):
     return {name: RawChannel(name, name, TIME, np.array(each)) for name, each in samples.items()}
 
 
-def test_two_magnets_are_one_command_and_states_hold_between_two_samples():
+def test_two_magnets_are_one_command_unless_one_is_recorded_or_their_times_differ():
     """00 fills, 10 holds, 11 vents; 01, which sensors may show for a moment, vents, too."""
     magnets = _magnets([0.0, 1.0, 1.0, 0.0, NAN], [0.0, 0.0, 1.0, 1.0, 0.0])
     command = with_valve_commands(magnets)["valve_command_2"]
@@ -87,10 +71,6 @@ def test_two_magnets_are_one_command_and_states_hold_between_two_samples():
     # Half of a diagnosis would be other bits.
     for name in ("diagnosis", "hold_magnet_1", "vent_magnet_4"):
         assert RawChannel(name, name, TIME, np.zeros(5)).is_state
-
-
-def test_a_recorded_command_has_precedence_and_times_of_their_own_make_none():
-    magnets = _magnets([0.0] * 5, [0.0] * 5)
     command = RawChannel("valve_command_2", "MV2", TIME, np.ones(5))
     assert with_valve_commands({**magnets, command.name: command})["valve_command_2"] is command
     magnets["vent_magnet_2"] = replace(magnets["vent_magnet_2"], time=TIME + 0.01)

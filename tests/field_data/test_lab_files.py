@@ -89,18 +89,13 @@ def test_what_a_refusal_says_reads_the_cell(tmp_path, reads, cell, value, settin
 
 @pytest.mark.parametrize("reads", [read, read_in_pieces])
 def test_a_decimal_point_beside_decimal_commas_is_no_number(tmp_path, reads):
+    channel_map = a_map(tmp_path / "map.yaml", SECTION % "")
     rows = [(t, "80.5" if k == 3 else v) for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows)
     with pytest.raises(MapError, match=r"line 5, column 2: '80\.5' is no number: .*decimal: \"\.\""):
-        reads(path, a_map(tmp_path / "map.yaml", SECTION % ""))
-
-
-@pytest.mark.parametrize("reads", [read, read_in_pieces])
-def test_a_declared_comma_is_believed_beside_a_column_with_points(tmp_path, reads):
-    rows = [(number(t), v) for t, (_, v) in zip(TIMES, PLAIN, strict=True)]
-    path = table(tmp_path / "a.csv", [(t[:-1], v) for t, v in rows])
+        reads(table(tmp_path / "a.csv", rows), channel_map)
+    points = [(number(t)[:-1], v) for t, (_, v) in zip(TIMES, PLAIN, strict=True)]
     with pytest.raises(MapError, match=r"'0\.00' is no number"):
-        reads(path, a_map(tmp_path / "map.yaml", SECTION % ""))
+        reads(table(tmp_path / "a.csv", points), channel_map)
 
 
 @pytest.mark.parametrize("cell", ["1_000", "0x10", "1e", "--1", "1,5,5", "1.0.5", "12.34", "1..5", "ten"])
@@ -171,44 +166,57 @@ def test_a_date_that_is_written_otherwise_is_shown_with_the_way_that_reads_it(tm
 
 
 @pytest.mark.parametrize("times", [["0,00"] * 40, [""] * 40, None], ids=["stands", "empty", "none"])
-def test_the_stated_interval_takes_the_place_of_a_column_of_times(tmp_path, times):
-    rows = [
-        (v,) if times is None else ((times + [t for t, _ in PLAIN])[k], v) for k, (t, v) in enumerate(PLAIN)
-    ]
-    path = table(tmp_path / "a.csv", rows, "v [km/h]" if times is None else "Zeit [s];v [km/h]")
+def test_the_stated_interval_takes_the_place_of_a_column_of_times(tmp_path, monkeypatch, times):
+    """Pieces of a file without times go on where the one before ended."""
     channel_map = a_map(tmp_path / "map.yaml", "time: {interval: 20 ms}\n" + SECTION % "")
+    if times is not None:
+        rows = [(time, v) for time, (_, v) in zip(times + [t for t, _ in PLAIN], PLAIN, strict=False)]
+        path = table(tmp_path / "a.csv", rows)
+    else:
+        path = table(tmp_path / "a.csv", [(v,) for _, v in PLAIN], "v [km/h]")
     np.testing.assert_allclose(read(path, channel_map)["speed"].time, TIMES)
-
-
-def test_pieces_of_a_file_without_times_go_on_where_the_one_before_ended(tmp_path, monkeypatch):
-    monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 400)
-    path = table(tmp_path / "a.csv", [(v,) for _, v in PLAIN], "v [km/h]")
-    channel_map = a_map(tmp_path / "map.yaml", "time: {interval: 20 ms}\n" + SECTION % "")
-    pieces = [select_channels(each, channel_map, np.inf) for each in read_pieces(path, channel_map.dialect)]
-    assert len(pieces) > 1
-    np.testing.assert_allclose(np.concatenate([piece["speed"].time for piece in pieces]), TIMES)
+    if times is None:
+        monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 400)
+        pieces = read_pieces(path, channel_map.dialect)
+        times = [select_channels(piece, channel_map, np.inf)["speed"].time for piece in pieces]
+        assert len(times) > 1
+        np.testing.assert_allclose(np.concatenate(times), TIMES)
 
 
 @pytest.mark.parametrize("reads", [read, read_in_pieces])
-def test_the_remarks_of_labview_may_be_left_out(tmp_path, reads):
-    path = table(tmp_path / "a.csv", PLAIN, "Zeit [s];v [km/h];Comment")
+def test_remarks_blank_lines_and_delimiters_at_the_ends_keep_the_places(tmp_path, reads):
+    """The remarks of LabVIEW may be left out."""
     channel_map = a_map(tmp_path / "map.yaml", SECTION % "")
-    assert len(reads(path, channel_map)["speed"].samples) == len(PLAIN)
-    rows = [(t, "OVL" if k == 150 else v) for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];Comment")
-    with pytest.raises(ValueError, match="line 152, column 2: 'OVL' is no number"):
-        reads(path, channel_map)
+    spoilt = [(t, "OVL" if k == 150 else v) for k, (t, v) in enumerate(PLAIN)]
+    heading = "Zeit [s];v [km/h];Comment"
+    ends = [[(*row, "") for row in rows] for rows in (PLAIN, spoilt)]
+    for rows in ends:
+        rows[3:3] = [()]
+    for (sound, bad), head, line in (((PLAIN, spoilt), heading, 152), (ends, "Zeit [s];v [km/h]", 153)):
+        assert len(reads(table(tmp_path / "a.csv", sound, head), channel_map)["speed"].samples) == len(PLAIN)
+        with pytest.raises(ValueError, match=f"line {line}, column 2: 'OVL' is no number"):
+            reads(table(tmp_path / "a.csv", bad, head), channel_map)
 
 
-def test_a_text_late_in_a_log_is_placed(tmp_path, monkeypatch):
-    monkeypatch.setattr("uictest.core.recording.formats.pieces._SAMPLED", 10)
-    rows = [(t, "OVL" if k == 150 else v) for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows)
-    channel_map = a_map(tmp_path / "map.yaml", SECTION % "")
-    with pytest.raises(ValueError, match=r"line 152, column 2: 'OVL' is no number: .*missing: \[\"OVL\"\]"):
-        list(read_pieces(path, channel_map.dialect))
-    channel_map = a_map(tmp_path / "map.yaml", SECTION % ', missing: ["OVL"]')
-    assert np.flatnonzero(np.isnan(read_in_pieces(path, channel_map)["speed"].samples)).tolist() == [150]
+def test_a_text_late_in_a_log_is_placed_in_whatever_piece_it_lies(tmp_path, monkeypatch):
+    rows = [(t, "OVL" if k == 150 else v, "0") for k, (t, v) in enumerate(PLAIN)]
+    path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];BrakeCommand")
+    with monkeypatch.context() as patch:
+        patch.setattr("uictest.core.recording.formats.pieces._SAMPLED", 10)
+        channel_map = a_map(tmp_path / "map.yaml", SECTION % "")
+        told = r"line 152, column 2: 'OVL' is no number: .*missing: \[\"OVL\"\]"
+        with pytest.raises(ValueError, match=told):
+            list(read_pieces(path, channel_map.dialect))
+        channel_map = a_map(tmp_path / "map.yaml", SECTION % ', missing: ["OVL"]')
+        assert np.flatnonzero(np.isnan(read_in_pieces(path, channel_map)["speed"].samples)).tolist() == [150]
+    monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 500)
+    channel_map = a_map(tmp_path / "map.yaml", SECTION % ', thousands: "."')
+    with pytest.raises(MapError, match="line 152, column 2: 'OVL' is no number"):
+        list(pieces_of(path, channel_map))
+    monkeypatch.undo()
+    path = table(tmp_path / "a.csv", [(t, "x" * 200 if k == 70 else v) for k, (t, v) in enumerate(PLAIN)])
+    with pytest.raises(MapError, match=r"line 72, column 2: 'x{64}' is no number"):
+        read_in_pieces(path, a_map(tmp_path / "map.yaml", SECTION % ""))
 
 
 def test_names_are_used_as_they_stand_and_brackets_hold_a_unit_only_if_it_is_one(tmp_path):
@@ -259,88 +267,56 @@ def test_units_stand_in_the_names_of_parquet_columns_as_in_those_of_texts(tmp_pa
     ],
 )
 def test_a_map_that_states_what_makes_no_sense_is_refused(tmp_path, text, told):
-    with pytest.raises(ScenarioErrors, match=re.escape(told)):
-        a_map(tmp_path / "map.yaml", text)
-
-
-def test_names_and_units_may_be_called_header_and_units(tmp_path):
     dialect = a_map(tmp_path / "map.yaml", "csv: {header: 3, units: 4}").dialect
     assert (dialect.header_line, dialect.unit_line) == (3, 4)
+    with pytest.raises(ScenarioErrors, match=re.escape(told)):
+        a_map(tmp_path / "map.yaml", text)
 
 
 @pytest.mark.parametrize("reads", [read, read_in_pieces])
 @pytest.mark.parametrize("settings", ['missing: ["-999"]', 'missing: ["-999"], thousands: "."'])
 def test_a_mark_that_is_a_number_is_compared_as_text(tmp_path, reads, settings):
     cells = {70: "-999", 71: "-999,0"}
-    path = table(tmp_path / "a.csv", [(t, v, cells.get(k, "1")) for k, (t, v) in enumerate(PLAIN)], STROKE)
+    path = table(
+        tmp_path / "a.csv",
+        [(t, v, cells.get(k, "1")) for k, (t, v) in enumerate(PLAIN)],
+        "Zeit [s];v [km/h];p",
+    )
     text = "channels: {cylinder_pressure_1: {source: p, unit: bar}}\n" + SECTION % f", {settings}"
     pressures = reads(path, a_map(tmp_path / "map.yaml", text))["cylinder_pressure_1"].samples
     np.testing.assert_array_equal(pressures[69:72] / 1e5, [1.0, np.nan, -999.0])
 
 
-STROKE = "Zeit [s];v [km/h];p"
-
-
 @pytest.mark.parametrize("reads", [read, read_in_pieces])
-def test_blank_lines_and_delimiters_at_the_ends_keep_the_places(tmp_path, reads):
-    lines = [";".join([*row, ""]) for row in PLAIN]
-    lines[3:3] = [""]
-    path = tmp_path / "a.csv"
-    path.write_text("\n".join(["Zeit [s];v [km/h]", *lines]) + "\n")
-    channel_map = a_map(tmp_path / "map.yaml", SECTION % "")
-    assert len(reads(path, channel_map)["speed"].samples) == len(PLAIN)
-    lines[150] = "3,0;OVL;"
-    path.write_text("\n".join(["Zeit [s];v [km/h]", *lines]) + "\n")
-    with pytest.raises(ValueError, match="line 152, column 2: 'OVL' is no number"):
-        reads(path, channel_map)
+def test_words_are_states_also_where_one_shows_late(tmp_path, reads, monkeypatch):
+    """Not marks of missing samples; truth values are states without a word in the map."""
 
+    def command(words, begin, text):
+        rows = [(t, v, words[k >= begin]) for k, (t, v) in enumerate(PLAIN)]
+        path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];BrakeCommand")
+        channel_map = a_map(tmp_path / "map.yaml", text + SECTION % "")
+        texts = {"BrakeCommand"}
+        (contents,) = (
+            [read_here("csv", path, channel_map.dialect)]
+            if reads is read
+            else read_pieces(path, channel_map.dialect, texts=texts)
+        )
+        return select_channels(contents, channel_map, np.inf)["brake_command"].samples
 
-@pytest.mark.parametrize("reads", [read, read_in_pieces])
-def test_a_state_that_shows_late_is_no_mark_of_missing_samples(tmp_path, reads, monkeypatch):
+    for words in (("False", "True"), ("FALSE", "TRUE"), ("false", "true")):
+        np.testing.assert_array_equal(command(words, 100, ""), [0.0] * 100 + [1.0] * 100)
     monkeypatch.setattr("uictest.core.recording.formats.pieces._SAMPLED", 10)
-    rows = [(t, v, "FAULT" if k > 150 else "0") for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];BrakeCommand")
-    text = "channels: {brake_command: {source: BrakeCommand, states: {FAULT: 1}}}\n" + SECTION % ""
-    channel_map = a_map(tmp_path / "map.yaml", text)
-    source = {"BrakeCommand"}
-    (contents,) = (
-        [read_here("csv", path, channel_map.dialect)]
-        if reads is read
-        else read_pieces(path, channel_map.dialect, texts=source)
-    )
-    command = select_channels(contents, channel_map, np.inf)["brake_command"].samples
-    assert (command[:151].max(), command[151:].min()) == (0.0, 1.0)
+    text = "channels: {brake_command: {source: BrakeCommand, states: {FAULT: 1}}}\n"
+    np.testing.assert_array_equal(command(("0", "FAULT"), 151, text), [0.0] * 151 + [1.0] * 49)
 
 
-@pytest.mark.parametrize("reads", [read, read_in_pieces])
-@pytest.mark.parametrize("words", [("True", "False"), ("TRUE", "FALSE"), ("true", "false")])
-def test_truth_values_are_two_states(tmp_path, reads, words):
-    rows = [(t, v, words[k < 100]) for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];BrakeCommand")
-    command = reads(path, a_map(tmp_path / "map.yaml", SECTION % ""))["brake_command"].samples
-    np.testing.assert_array_equal(command, [0.0] * 100 + [1.0] * 100)
-
-
-def test_a_text_in_a_later_piece_of_a_signal_is_no_missing_sample(tmp_path, monkeypatch):
-    monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 500)
-    rows = [(t, "OVL" if k == 150 else v, "0") for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];BrakeCommand")
-    channel_map = a_map(tmp_path / "map.yaml", SECTION % ', thousands: "."')
-    with pytest.raises(MapError, match="line 152, column 2: 'OVL' is no number"):
-        list(pieces_of(path, channel_map))
-
-
-def test_a_long_text_among_numbers_is_placed_in_a_log(tmp_path):
-    rows = [(t, "x" * 200 if k == 70 else v) for k, (t, v) in enumerate(PLAIN)]
-    path = table(tmp_path / "a.csv", rows)
-    with pytest.raises(MapError, match=r"line 72, column 2: 'x{64}' is no number"):
-        read_in_pieces(path, a_map(tmp_path / "map.yaml", SECTION % ""))
-
-
-def test_a_record_of_one_sample_has_no_interval(tmp_path):
+def test_a_record_of_one_sample_has_no_interval_and_an_unknown_encoding_is_told_its_byte(tmp_path):
     path = table(tmp_path / "a.csv", PLAIN[:1])
     with pytest.raises(UnusableError, match="fewer than two samples"):
         stop_in(path, a_map(tmp_path / "map.yaml", SECTION % ""))
+    path.write_bytes(b"t [s];v\x81 [km/h]\n0,0;80,0\n0,1;79,0\n")
+    with pytest.raises(ValueError, match="line 1, byte 8: 0x81 is not CP1252"):
+        read_here("csv", path, Dialect(by_itself=True))
 
 
 def test_a_clock_of_a_log_runs_on_past_midnight_between_pieces(tmp_path, monkeypatch):
@@ -354,10 +330,3 @@ def test_a_clock_of_a_log_runs_on_past_midnight_between_pieces(tmp_path, monkeyp
     times = [piece.channels["speed"].time for piece in pieces_of(path, channel_map)]
     assert len(times) > 2
     np.testing.assert_allclose(np.diff(np.concatenate(times)), STEP, atol=1e-6)
-
-
-def test_a_file_of_no_known_encoding_is_told_its_byte(tmp_path):
-    path = tmp_path / "a.csv"
-    path.write_bytes(b"t [s];v\x81 [km/h]\n0,0;80,0\n0,1;79,0\n")
-    with pytest.raises(ValueError, match="line 1, byte 8: 0x81 is not CP1252"):
-        read_here("csv", path, Dialect(by_itself=True))

@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.core.recording.formats.isolation import read_here
-from uictest.recorded.field_data import MapError, load_map, prepare, select_channels
+from uictest.recorded.field_data import MapError, UnusableError, load_map, prepare, select_channels
 from uictest.recorded.field_data.raw_channels import at_own_rates, with_valve_commands
 
 STEP, DISTANCE = 0.02, 246.91
@@ -48,6 +48,86 @@ def distance_of(stop):
     return stop.standstill[1]
 
 
+def on_two_clocks(step):
+    """Return a table of a fast and of a slow clock that never meet: each row has the samples of one."""
+    slow_time = TIME[::step] + 0.007
+    time = np.sort(np.concatenate([TIME, slow_time]))
+    fast, slow = (
+        np.where(np.isin(time, of), np.interp(time, TIME, SPEED), np.nan) for of in (TIME, slow_time)
+    )
+    return {"t [s]": time, "v_train [km/h]": fast} | {f"v{n} [km/h]": slow for n in range(1, 5)}
+
+
+LATE = np.where(TIME < 0.4, np.nan, SPEED)
+LONG = "Model/" + "Subsystem/" * 60 + "v"
+ODD = {
+    # smuview issue 58
+    "samples miss before the brake": (
+        {n: LATE if "v" in n else c for n, c in columns_of().items()},
+        "",
+        0.01,
+    ),
+    "T1 is no torque, a motor speed no train speed": (
+        columns_of(**{"T1 [°C]": np.full(len(TIME), 40.0), "Speed [rpm]": 20.0 * SPEED}),
+        *("", 0.01),
+    ),
+    "names as DIN 461 writes them, and of 600 letters": (
+        {"t in s": TIME, "v_Zug / (km/h)": SPEED, "v1 in km/h": SPEED, f"{LONG} [km/h]": SPEED},
+        *(f'channels: {{wheel_speed_2: "{LONG}"}}', 0.01),
+    ),
+    **{
+        f"speeds in {unit}": ({"t [s]": TIME, f"v_train [{unit}]": SPEED / size}, "", 0.01)
+        for unit, size in (("mph", 1.609344), ("kn", 1.852), ("knots", 1.852))
+    },
+    "clocks that never meet, 10 Hz": (on_two_clocks(5), "", 0.02),
+    "clocks that never meet, 25 Hz": (on_two_clocks(2), "", 0.02),
+}
+"""Columns of a table, the map that reads them, and the tolerance of the distance, m."""
+
+
+@pytest.mark.parametrize("odd", ODD)
+def test_a_table_that_is_odd_gives_the_distance(tmp_path, odd):
+    columns, text, tolerance = ODD[odd]
+    stop = stop_of(written(tmp_path / "a.csv", columns), text)
+    assert distance_of(stop) == pytest.approx(DISTANCE, abs=tolerance)
+    assert bool(stop.defects) == ("miss" in odd)
+    assert "brake_torque_1" not in stop.recording.channels
+    if "DIN" in odd:
+        assert {"wheel_speed_1", "wheel_speed_2"} <= stop.recording.channels.keys()
+
+
+ASKED_FOR = {
+    "a speed with the other sign": (
+        {"v_train [km/h]": -SPEED},
+        "write sign: -1 beside the source of the speed",
+        "channels: {speed: {source: v_train, sign: -1}}",
+    ),
+    "days of a spreadsheet": (
+        {"t [s]": 45_000.0 + TIME / 86_400.0},
+        r"is it in d\? write `unit: d`",
+        "channels: {time: {source: t, unit: d}}",
+    ),
+    "times that go back": ({}, r"goes back in time 1 times, .*; sort the rows by time", ""),
+}
+"""Changed columns, what the refusal says, and the map that does as it says."""
+
+
+@pytest.mark.parametrize("name", ASKED_FOR)
+def test_what_is_refused_is_read_once_the_message_is_obeyed(tmp_path, name):
+    changed, message, text = ASKED_FOR[name]
+    columns = columns_of(**changed)
+    if not text:
+        order = np.r_[0:400, 500:600, 400:500, 600:1262]
+        columns = {name: samples[order] for name, samples in columns.items()}
+    path = written(tmp_path / "a.csv", columns)
+    with pytest.raises((MapError, UnusableError), match=message):
+        stop_of(path)
+    if not text:
+        written(path, columns_of())
+    trigger = f"{86_400.0 * 45_000.0 + 2.0} s" if "days" in name else "2 s"
+    assert distance_of(stop_of(path, text, trigger)) == pytest.approx(DISTANCE, abs=0.01)
+
+
 @pytest.mark.parametrize("name", ["v_train [km/h]", "v2 [km/h]"])
 @pytest.mark.parametrize("samples", [1, 6])
 def test_a_speed_that_jumps_up_and_back_is_a_spike(tmp_path, name, samples):
@@ -71,23 +151,24 @@ def test_a_contact_that_bounces_is_no_brake_command(tmp_path, column, pulse, lev
     assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.5)
     late = np.where(TIME >= 2.05, level, 0.0)  # the contact bounces when it closes, too
     late[100:102] = pulse
-    assert (
-        stop_of(written(tmp_path / "a.csv", columns_of(**{column: late})), trigger=trigger).trigger.time
-        < 2.06
-    )
+    stop = stop_of(written(tmp_path / "a.csv", columns_of(**{column: late})), trigger=trigger)
+    assert stop.trigger.time < 2.06
 
 
-def test_a_heading_with_a_cell_too_many_is_refused(tmp_path):
-    path = written(tmp_path / "a.csv", columns_of())  # Hioki 8807 manual, 12.5
-    path.write_text("label," + path.read_text())
+def test_the_text_of_a_table_as_others_write_it(tmp_path):
+    """Letters of two bytes without a mark are read; a cell too many and a name twice are refused."""
+    path = written(tmp_path / "a.csv", columns_of())
+    text = path.read_text()
+    for encoding in ("utf-16-le", "utf-16-be"):
+        path.write_bytes(text.encode(encoding))
+        assert distance_of(stop_of(path)) == pytest.approx(DISTANCE, abs=0.01)
+    path.write_text("label," + text)  # Hioki 8807 manual, 12.5
     with pytest.raises(ValueError, match=r"line 1 names 7 channels, but no line of samples has more than 6"):
         stop_of(path)
-
-
-def test_samples_that_miss_before_the_brake_leave_the_distance(tmp_path):
-    late = np.where(TIME < 0.4, np.nan, SPEED)  # smuview issue 58
-    columns = {name: late if "v" in name else each for name, each in columns_of().items()}
-    assert distance_of(stop_of(written(tmp_path / "a.csv", columns))) == pytest.approx(DISTANCE, abs=0.01)
+    path.write_text(text.replace("v1 [km/h]", "v_train [km/h]", 1))
+    told = r"several columns have that name: write one of 'v_train \(1\)', 'v_train"
+    with pytest.raises(MapError, match=told):
+        stop_of(path)
 
 
 @pytest.mark.parametrize("fast", [True, False], ids=["asammdf-1219", "smuview-58"])
@@ -98,40 +179,28 @@ def test_channels_of_a_slower_rate_have_a_time_of_their_own(tmp_path, fast):
     assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.1)
     assert stop.defects == ()
     assert stop.intervals["wheel_speed_1" if fast else "speed"] == pytest.approx(0.1)
-    assert ("every 100 ms" in stop.choices["sampling"], "every 20 ms" in stop.choices["sampling"]) == (
-        True,
-        True,
-    )
+    assert "every 100 ms" in stop.choices["sampling"]
+    assert "every 20 ms" in stop.choices["sampling"]
 
 
-def test_a_single_missing_sample_is_no_slower_rate(tmp_path):
+def test_a_single_missing_sample_is_no_slower_rate_and_a_trigger_before_the_record_says_so(tmp_path):
     hole = SPEED.copy()
     hole[600] = np.nan
     stop = stop_of(written(tmp_path / "a.csv", columns_of(**{"v2 [km/h]": hole})))
     assert [defect.kind for defect in stop.defects] == ["not-a-number"]
+    stop = stop_of(written(tmp_path / "a.csv", columns_of(**{"t [s]": 1.79e9 + TIME})))
+    assert "at 2 s, stated by the user, before the record begins at 1790000000 s" in stop.trigger.text
 
 
-def test_a_temperature_called_t1_is_no_torque_and_a_motor_speed_no_train_speed(tmp_path):
-    warm, motor = np.full(len(TIME), 40.0), 20.0 * SPEED
-    stop = stop_of(written(tmp_path / "a.csv", columns_of(**{"T1 [°C]": warm, "Speed [rpm]": motor})))
-    assert "brake_torque_1" not in stop.recording.channels
-    assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
-
-
-def test_states_given_to_numbers_are_used_and_an_inverted_command_is_asked_for(tmp_path):
+def test_states_given_to_numbers_and_words_are_used_and_an_inverted_command_is_asked_for(tmp_path):
     path = written(tmp_path / "a.csv", columns_of(BrakeCommand=1 - BRAKED))  # asammdf issues 293, 748
     stop = stop_of(path, trigger="command")
     assert 'or inverted: then write states: {"0": 1, "1": 0} beside its source' in stop.trigger.text
     text = 'channels: {brake_command: {source: BrakeCommand, states: {"0": 1, "1": 0}}}'
     assert distance_of(stop_of(path, text, "command")) == pytest.approx(DISTANCE, abs=0.5)
-
-
-def test_a_speed_with_the_other_sign_is_asked_for(tmp_path):
-    path = written(tmp_path / "a.csv", columns_of(**{"v_train [km/h]": -SPEED}))
-    with pytest.raises(MapError, match="write sign: -1 beside the source of the speed"):
-        stop_of(path)
-    stop = stop_of(path, "channels: {speed: {source: v_train, sign: -1}}")
-    assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
+    written(path, columns_of(MV=np.where(TIME < 5.0, "TRUE", "FALSE")))
+    text = 'channels: {valve_command_1: {source: MV, states: {"TRUE": 2, "FALSE": 0}}}'
+    assert set(stop_of(path, text).recording["valve_command_1"]) == {0.0, 2.0}
 
 
 def test_a_piston_stroke_taken_for_the_distance_is_named_and_can_be_left_out(tmp_path):
@@ -140,55 +209,6 @@ def test_a_piston_stroke_taken_for_the_distance_is_named_and_can_be_left_out(tmp
     assert "write channels: {distance: null} in the channel map" in told.text
     stop = stop_of(path, "channels: {distance: null}")
     assert (stop.defects, stop.choices["distance"]) == ((), "integrated from speed")
-
-
-def test_a_trigger_before_the_record_says_when_that_begins(tmp_path):
-    stop = stop_of(written(tmp_path / "a.csv", columns_of(**{"t [s]": 1.79e9 + TIME})))
-    assert "at 2 s, stated by the user, before the record begins at 1790000000 s" in stop.trigger.text
-
-
-def test_times_that_go_back_are_to_be_sorted(tmp_path):
-    order = np.r_[0:400, 500:600, 400:500, 600:1262]
-    path = written(tmp_path / "a.csv", {name: each[order] for name, each in columns_of().items()})
-    with pytest.raises(Exception, match=r"goes back in time 1 times, .*; sort the rows by time"):
-        stop_of(path)
-    lines = path.read_text().splitlines()
-    path.write_text(
-        "\n".join([lines[0], *sorted(lines[1:], key=lambda line: float(line.split(",")[0]))]) + "\n"
-    )
-    assert distance_of(stop_of(path)) == pytest.approx(DISTANCE, abs=0.01)
-
-
-@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
-def test_letters_of_two_bytes_without_a_mark_are_read(tmp_path, encoding):
-    path = written(tmp_path / "a.csv", columns_of())
-    path.write_bytes(path.read_text().encode(encoding))
-    assert distance_of(stop_of(path)) == pytest.approx(DISTANCE, abs=0.01)
-
-
-def test_names_as_din_461_writes_them_and_names_of_600_letters(tmp_path):
-    long = "Model/" + "Subsystem/" * 60 + "v [km/h]"
-    columns = {"t in s": TIME, "v_Zug / (km/h)": SPEED, "v1 in km/h": SPEED, long: SPEED}
-    path = written(tmp_path / "a.csv", columns)
-    stop = stop_of(path, f'channels: {{wheel_speed_2: "{long.removesuffix(" [km/h]")}"}}')
-    assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
-    assert {"wheel_speed_1", "wheel_speed_2"} <= stop.recording.channels.keys()
-
-
-@pytest.mark.parametrize("unit", ["kn", "knots", "mph"])
-def test_speeds_in_knots_and_miles(tmp_path, unit):
-    size = 1.609344 if unit == "mph" else 1.852
-    path = written(tmp_path / "a.csv", {"t [s]": TIME, f"v_train [{unit}]": SPEED / size})
-    assert distance_of(stop_of(path)) == pytest.approx(DISTANCE, abs=0.01)
-
-
-def test_days_of_a_spreadsheet_and_the_unit_that_is_likely(tmp_path):
-    days = 45_000.0 + TIME / 86_400.0
-    path = written(tmp_path / "a.csv", columns_of(**{"t [s]": days}))
-    with pytest.raises(MapError, match=r"is it in d\? write `unit: d`"):
-        stop_of(path)
-    stop = stop_of(path, "channels: {time: {source: t, unit: d}}", f"{86_400.0 * 45_000.0 + 2.0} s")
-    assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
 
 
 def test_times_of_a_day_in_parquet_run_past_midnight(tmp_path):
@@ -200,15 +220,6 @@ def test_times_of_a_day_in_parquet_run_past_midnight(tmp_path):
     )
     stop = stop_of(tmp_path / "a.parquet", kind="parquet")
     assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
-
-
-def test_a_name_that_stands_twice_is_to_be_told_apart(tmp_path):
-    path = written(tmp_path / "a.csv", columns_of())
-    path.write_text(path.read_text().replace("v1 [km/h]", "v_train [km/h]", 1))
-    with pytest.raises(
-        MapError, match=r"several columns have that name: write one of 'v_train \(1\)', 'v_train"
-    ):
-        stop_of(path)
 
 
 def test_a_channel_of_two_groups_without_names_is_chosen_by_number(tmp_path):
@@ -223,20 +234,16 @@ def test_a_channel_of_two_groups_without_names_is_chosen_by_number(tmp_path):
     assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
 
 
-@pytest.mark.parametrize(("step", "jump"), [(5, 50.0), (10, 100.0)], ids=["10 Hz", "5 Hz"])
-def test_a_spike_of_a_slow_recorder_shows(tmp_path, step, jump):
-    spiked = SPEED[::step].copy()
-    spiked[600 // step] += jump
-    columns = {name: each[::step] for name, each in columns_of().items()} | {"v_train [km/h]": spiked}
-    assert [defect.kind for defect in stop_of(written(tmp_path / "a.csv", columns)).defects] == ["spike"]
-
-
 @pytest.mark.parametrize("step", [5, 10], ids=["10 Hz", "5 Hz"])
-def test_one_sample_of_pressure_of_a_slow_recorder_is_no_command(tmp_path, step):
+def test_a_slow_recorder_shows_a_spike_and_one_sample_of_pressure_is_no_command(tmp_path, step):
+    columns = {name: samples[::step] for name, samples in columns_of().items()}
+    spiked = SPEED[::step].copy()
+    spiked[600 // step] += 10.0 * step
+    stop = stop_of(written(tmp_path / "a.csv", columns | {"v_train [km/h]": spiked}))
+    assert [defect.kind for defect in stop.defects] == ["spike"]
     pressure = 3.8 * BRAKED[::step].astype(float)
     pressure[50 // step] = 0.4
-    columns = {name: each[::step] for name, each in columns_of().items()} | {"p_C1 [bar]": pressure}
-    stop = stop_of(written(tmp_path / "a.csv", columns), trigger="pressure")
+    stop = stop_of(written(tmp_path / "a.csv", columns | {"p_C1 [bar]": pressure}), trigger="pressure")
     assert stop.trigger.time == pytest.approx(2.0, abs=STEP * step)
 
 
@@ -248,18 +255,6 @@ def test_rows_that_are_nearly_empty_at_the_end_leave_the_dialect(tmp_path):
     assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.01)
 
 
-@pytest.mark.parametrize("step", [5, 2], ids=["10 Hz", "25 Hz"])
-def test_clocks_that_never_meet_in_one_table_are_two(tmp_path, step):
-    other = TIME[::step] + 0.007
-    time = np.sort(np.concatenate([TIME, other]))
-    fast = np.where(np.isin(time, TIME), np.interp(time, TIME, SPEED), np.nan)
-    slow = np.where(np.isin(time, other), np.interp(time, TIME, SPEED), np.nan)
-    columns = {"t [s]": time, "v_train [km/h]": fast} | {f"v{n} [km/h]": slow for n in range(1, 5)}
-    stop = stop_of(written(tmp_path / "a.csv", columns))
-    assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.02)
-    assert stop.defects == ()
-
-
 def test_a_radius_of_a_speed_that_does_not_rotate_and_degrees_are_told(tmp_path):
     path = written(tmp_path / "a.csv", columns_of(**{"Td [°C]": SPEED}))
     with pytest.raises(MapError, match="'v1' is in km/h, no rotational speed: leave out wheel_radius"):
@@ -268,12 +263,3 @@ def test_a_radius_of_a_speed_that_does_not_rotate_and_degrees_are_told(tmp_path)
         stop_of(path, "channels: {disc_surface_temperature_1: Td}")
     text = "channels: {disc_surface_temperature_1: {source: Td, unit: K, offset: 273.15}}"
     assert stop_of(path, text).recording["disc_surface_temperature_1"][0] == pytest.approx(353.15)
-
-
-def test_states_given_to_words_of_truth_are_used(tmp_path):
-    words = np.where(TIME < 5.0, "TRUE", "FALSE")
-    path = tmp_path / "a.csv"
-    rows = [f"{t},{v},{word}" for t, v, word in zip(TIME, SPEED, words, strict=True)]
-    path.write_text("\n".join(["t [s],v [km/h],MV", *rows]) + "\n")
-    text = 'channels: {valve_command_1: {source: MV, states: {"TRUE": 2, "FALSE": 0}}}'
-    assert set(stop_of(path, text).recording["valve_command_1"]) == {0.0, 2.0}

@@ -98,13 +98,14 @@ def _criterion(name, side, share, bound):
     "part",
     [
         *("until 0.01", "until 2", "until 6", "until 12", "until 17.5"),
-        *("from 0.5", "from 3", "from 9", "from 15"),
-        *("without 0.2", "without 2", "without 7", "without 15"),
+        *("from 0.5", "from 1", "from 3", "from 9", "from 15"),
+        *("without 0.2", "without 2", "without 7", "without 9", "without 15"),
     ],
 )
 def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
     part, whole, by_every_measure, channels, prepared
 ):
+    """What it shows for certain is decided, the rest open."""
     some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
     assert whole.outcome == "fail"
     assert len(whole.criteria) > 100
@@ -115,18 +116,13 @@ def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
         if early.status not in (late.status, "not_applicable" if early.is_check else "inconclusive")
     ]
     assert wrong == []
-    decided = {each.status for each in some.criteria}
-    assert "inconclusive" in decided
-
-
-@pytest.mark.parametrize("part", ["until 12", "from 1", "without 9"])
-def test_what_a_part_shows_for_certain_is_decided(part, by_every_measure, channels, prepared):
-    some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
     verdicts = {each.id: each.status for each in some.criteria}
-    for name in ("sliding-duration", "valve-actuations", "maximum-clamping-force"):
-        assert verdicts[f"{name}-lower-0.1"] == "pass"
-        assert verdicts[f"{name}-upper-0.1"] == "fail"
-        assert verdicts[f"{name}-upper-3.0"] == "inconclusive"
+    assert "inconclusive" in verdicts.values()
+    if part in ("until 12", "from 1", "without 9"):
+        for name in ("sliding-duration", "valve-actuations", "maximum-clamping-force"):
+            assert verdicts[f"{name}-lower-0.1"] == "pass"
+            assert verdicts[f"{name}-upper-0.1"] == "fail"
+            assert verdicts[f"{name}-upper-3.0"] == "inconclusive"
 
 
 def test_neither_openings_nor_locks_on_either_side_of_a_gap_are_taken_for_others(case, channels, prepared):

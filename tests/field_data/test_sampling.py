@@ -1,10 +1,20 @@
-"""Resampling, trigger, standstill, filter: what is done to a record before it is measured."""
+"""What is done to a record before it is measured, and numbers that no train shows."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.recorded.field_data import MapError, Preparation, RawChannel
+from uictest.core.recording.recording import Contents, Group
+from uictest.recorded.field_data import (
+    MapError,
+    Preparation,
+    RawChannel,
+    UnusableError,
+    load_map,
+    select_channels,
+)
 from uictest.recorded.field_data.defects import coarse_defects, gap_defects
 from uictest.recorded.field_data.raw_channels import gaps, low_passed, resampled
 from uictest.recorded.field_data.trigger import find_standstill, find_trigger, require_plausible_deceleration
@@ -43,11 +53,13 @@ def test_a_gap_or_a_missing_sample_stays_one_but_for_its_edges():
     np.testing.assert_array_equal(np.isnan(values), [False, True, True, True, False, False])
 
 
-@pytest.mark.parametrize(("lost", "is_a_gap"), [(1, False), (2, True)])
-def test_one_sample_lost_is_no_gap_and_two_are(lost, is_a_gap):
-    time = np.delete(0.125 * np.arange(20), range(10, 10 + lost))
-    assert gaps(time, grid_interval=0.125).any() == is_a_gap
-    assert len(list(gap_defects(time, "speed", grid_interval=0.125))) == is_a_gap
+def test_two_lost_samples_are_a_gap_and_more_than_a_quarter_of_a_second_between_them_is_coarse():
+    for lost, is_a_gap in ((1, False), (2, True)):
+        time = np.delete(0.125 * np.arange(20), range(10, 10 + lost))
+        assert gaps(time, grid_interval=0.125).any() == is_a_gap
+        assert len(list(gap_defects(time, "speed", grid_interval=0.125))) == is_a_gap
+    for interval, coarse in ((0.25, False), (0.26, True)):
+        assert len(list(coarse_defects(interval, "speed"))) == coarse
 
 
 def test_gaps_are_intervals_of_more_than_two_and_a_half_usual_ones_and_slower_than_the_raster():
@@ -61,11 +73,6 @@ def test_gaps_are_intervals_of_more_than_two_and_a_half_usual_ones_and_slower_th
     [defect] = gap_defects(time, "speed", grid_interval=0.1)
     listed = "4 to 10 s, 14 to 20 s, 24 to 30 s and 2 more"
     assert str(defect) == f"gap: speed is not recorded from {listed}"
-
-
-@pytest.mark.parametrize(("interval", "coarse"), [(0.25, False), (0.26, True)])
-def test_samples_a_quarter_of_a_second_apart_are_the_last_that_show_all(interval, coarse):
-    assert len(list(coarse_defects(interval, "speed"))) == coarse
 
 
 TIME = np.linspace(0.0, 10.0, 1001)
@@ -149,10 +156,7 @@ def test_a_sensor_that_reads_a_little_at_rest_or_a_late_zero_does_not_delay_stan
     found = stood(time, speed)
     assert found.time == pytest.approx(10.03, abs=0.06)
     assert "run out" in found.text
-
-
-def test_the_train_runs_out_at_the_deceleration_of_the_last_half_second():
-    """It brakes twice as hard from then on."""
+    # It runs out at the deceleration of the last half second: here it brakes twice as hard from then on.
     time = np.arange(0.0, 9.75, 0.05)
     speed = np.where(time < 9.2, 10.2 - time, 1.0 - 2.0 * (time - 9.2)) + 0.25
     found = stood(time, speed)
@@ -165,19 +169,13 @@ def _braking(deceleration, initial_speed=20.0):
     return _channel("speed", time, initial_speed - deceleration * time)
 
 
-@pytest.mark.parametrize("deceleration", [0.0102, 1.0, 19.8])
-def test_what_a_train_can_do_is_plausible(deceleration):
-    require_plausible_deceleration(_braking(deceleration), 0.0)
-
-
-@pytest.mark.parametrize("deceleration", [0.0098, 20.2])
-def test_what_no_train_can_do_is_told_in_numbers(deceleration):
-    numbers = f"from 72 to 36 km/h in {10.0 / deceleration:.4g} s, at {deceleration:.4g} m/s2"
-    with pytest.raises(MapError, match=f"the train slows {numbers}"):
+def test_what_a_train_can_do_after_its_brake_command_is_plausible_and_nothing_else():
+    for deceleration in (0.0102, 1.0, 19.8):
         require_plausible_deceleration(_braking(deceleration), 0.0)
-
-
-def test_the_deceleration_is_asked_for_after_the_brake_command_of_a_moving_train():
+    for deceleration in (0.0098, 20.2):
+        numbers = f"from 72 to 36 km/h in {10.0 / deceleration:.4g} s, at {deceleration:.4g} m/s2"
+        with pytest.raises(MapError, match=f"the train slows {numbers}"):
+            require_plausible_deceleration(_braking(deceleration), 0.0)
     time = np.arange(0.0, 20.0, 0.1)
     speed = np.where(np.abs(time - 5.0) < 2.0, 5.0, 0.0)
     require_plausible_deceleration(_channel("speed", time, speed), 0.0)
@@ -195,3 +193,75 @@ def test_a_low_pass_keeps_level_and_place_of_what_it_filters():
     np.testing.assert_allclose(filtered, (20.0 - TIME)[100:-100], atol=0.02)
     assert low_passed(COMMAND, 2.0) is COMMAND
     assert low_passed(SPEED, 45.0) is SPEED
+
+
+SECONDS = np.arange(0.0, 20.0, 0.05)
+
+
+def _selected(time, speed, pressure, units):
+    samples = {"time": time, "speed": speed, "cylinder_pressure_1": pressure}
+    channels = {name: np.broadcast_to(np.asarray(each), len(SECONDS)) for name, each in samples.items()}
+    group = Group("", channels, dict(zip(channels, units, strict=True)))
+    return select_channels(Contents((group,)), load_map("uictest")[0])
+
+
+@pytest.mark.parametrize(
+    ("factors", "units", "message"),
+    [
+        ((1e3, 1.0, 1.0), ("s", "m/s", "bar"), r"is it in ms\? write `unit: ms`"),
+        ((1e6, 1.0, 1.0), ("s", "m/s", "bar"), r"is it in us\? write `unit: us`"),
+        ((1e9, 1.0, 1.0), ("s", "m/s", "bar"), r"is it in ns\? write `unit: ns`"),
+        ((1e12, 1.0, 1.0), ("s", "m/s", "bar"), r"runs from 0 to 1.995e\+13 s with a sample every 5e\+10 s"),
+        ((1e-9, 1.0, 1.0), ("s", "m/s", "bar"), "with a sample every 5e-11 s"),
+        ((1.0, 100.0, 1.0), ("s", "m/s", "bar"), "'speed' reaches 2000 m/s; at most 1000 km/h"),
+        ((1.0, 1.0, 1e2), ("s", "m/s", "bar"), "reaches 380 bar; .* is it in kPa"),
+        ((1.0, 1.0, 1e5), ("s", "m/s", "bar"), "reaches 3.8e\\+05 bar; .* is it in Pa"),
+        ((1.0, 1.0, 1e308), ("s", "m/s", "bar"), "reaches inf bar"),
+    ],
+)
+def test_a_wrong_unit_is_asked_for(factors, units, message):
+    with np.errstate(over="ignore"):
+        pressure = 3.8 * np.float64(factors[2])
+    with pytest.raises(MapError, match=message):
+        _selected(SECONDS * factors[0], 20.0 * factors[1], pressure, units)
+
+
+def test_times_in_nanoseconds_and_numbers_among_texts_are_read_in_the_unit_of_their_channel():
+    channels = _selected(SECONDS * 1e9, 20.0, 3.8, ("ns", "m/s", "bar"))
+    np.testing.assert_allclose(channels["speed"].time, SECONDS)
+    texts = {"time": SECONDS[:3], "speed": np.array(["36.0", "", "18.0"])}
+    group = Group("", texts, {"time": "s", "speed": "km/h"})
+    speed = select_channels(Contents((group,)), load_map("uictest")[0])["speed"].samples
+    np.testing.assert_allclose(speed, [10, np.nan, 5])
+
+
+def test_a_single_impossible_sample_is_a_defect_and_a_speed_without_a_number_unusable(channels, prepared):
+    samples = channels["wheel_speed_2"].samples.copy()
+    samples[100] = 6553.5
+    channels["wheel_speed_2"] = replace(channels["wheel_speed_2"], samples=samples)
+    stop = prepared(channels)
+    [defect] = [each for each in stop.defects if each.kind == "out-of-range"]
+    assert str(defect).startswith("out-of-range: wheel_speed_2 has 1 of")
+    assert np.isnan(stop.recording["wheel_speed_2"]).any()
+    speed = channels["speed"]
+    channels["speed"] = replace(speed, samples=np.full(len(speed.samples), np.nan))
+    with pytest.raises(UnusableError, match="not-a-number: speed has"):
+        prepared(channels)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 150.0])
+def test_a_stop_that_no_train_makes_is_refused(channels, prepared, scale):
+    time = channels["speed"].time * scale
+    scaled = {name: replace(channel, time=time) for name, channel in channels.items()}
+    with pytest.raises(MapError, match=r"m/s2; .* are plausible: check the units of time and speed"):
+        prepared(scaled)
+
+
+def test_a_stated_time_that_is_none_or_after_the_record_is_refused(channels, prepared):
+    for text in ("nan s", "inf s", "1e400 s", "12", "soon", ""):
+        with pytest.raises(MapError, match=r"brake_command_time in the header of the file: .* --trigger"):
+            prepared(channels, {"brake_command_time": text})
+    with pytest.raises(MapError, match=r"1.7e\+09 s, stated by the file, is not in the record"):
+        prepared(channels, {"brake_command_time": "1700000000 s"})
+    with pytest.raises(MapError, match=r"1.7e\+09 s, stated by the user, is not in the record"):
+        prepared(channels, {}, trigger_time="1700000000 s")

@@ -128,7 +128,7 @@ def test_no_name_leads_out_of_the_folder(tmp_path, name):
     assert not (tmp_path / "out.csv").exists()
 
 
-def test_a_list_that_is_not_of_uictest_is_not_continued(tmp_path):
+def test_what_is_not_of_uictest_is_neither_continued_nor_removed(tmp_path, caplog):
     for make in (lambda path: path.write_text("mine"), lambda path: path.symlink_to(tmp_path / "victim")):
         (tmp_path / "victim").write_text("victim")
         make(tmp_path / LIST)
@@ -138,18 +138,17 @@ def test_a_list_that_is_not_of_uictest_is_not_continued(tmp_path):
         assert (tmp_path / "a.csv").is_file()
         assert (tmp_path / LIST).read_text() in ("mine", "victim")
         (tmp_path / LIST).unlink()
-
-
-def test_only_what_is_as_it_was_written_is_removed(tmp_path, caplog):
-    begin_list(tmp_path)
+    run = tmp_path / "run"
+    run.mkdir()
+    begin_list(run)
     for name in ("map-a.csv", "map-b.csv", "summary.csv"):
-        write(tmp_path, name, name)
-    (tmp_path / "map-b.csv").write_text("changed by me")
-    (tmp_path / "map-c.csv").write_text("mine")
-    remove_listed(tmp_path, "map-*.csv")
-    assert sorted(path.name for path in tmp_path.iterdir()) == [LIST, "map-b.csv", "map-c.csv", "summary.csv"]
+        write(run, name, name)
+    (run / "map-b.csv").write_text("changed by me")
+    (run / "map-c.csv").write_text("mine")
+    remove_listed(run, "map-*.csv")
+    assert sorted(path.name for path in run.iterdir()) == [LIST, "map-b.csv", "map-c.csv", "summary.csv"]
     assert "map-b.csv stays" in caplog.text
     assert "map-c.csv stays" in caplog.text
-    write(tmp_path, "map-a.csv", "again")
-    remove_listed(tmp_path, "map-a.csv")
-    assert not (tmp_path / "map-a.csv").exists()
+    write(run, "map-a.csv", "again")
+    remove_listed(run, "map-a.csv")
+    assert not (run / "map-a.csv").exists()

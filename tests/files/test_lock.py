@@ -33,7 +33,7 @@ def another_process(folder, how="alone"):
         yield process
 
 
-def test_another_process_is_named(tmp_path):
+def test_another_process_is_named_and_those_who_share_work_side_by_side_alone(tmp_path):
     with another_process(tmp_path) as process:
         with pytest.raises(FolderInUseError) as caught:
             FolderLock(tmp_path)
@@ -41,9 +41,6 @@ def test_another_process_is_named(tmp_path):
     with FolderLock(tmp_path):
         pass
     assert list(tmp_path.iterdir()) == []
-
-
-def test_those_who_share_work_side_by_side_and_nobody_else_does(tmp_path):
     with another_process(tmp_path, "shared"):
         with FolderLock(tmp_path, shared=True):
             pass
@@ -74,11 +71,19 @@ def test_who_waits_for_one_that_shares_waits_until_its_end(tmp_path):
         FolderLock(tmp_path, shared=True)
 
 
-def test_a_file_that_is_named_as_a_shared_lock_is_neither_one_nor_removed(tmp_path):
+def test_files_of_other_programs_stay(tmp_path):
     (tmp_path / ".uictest-0.lock").write_text("mine")
     with FolderLock(tmp_path):
         pass
     assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
+    (tmp_path / ".lock").write_text("theirs")
+    with FolderLock(tmp_path):
+        pass
+    assert (tmp_path / ".lock").read_text() == "theirs"
+    with FolderLock(tmp_path):
+        (tmp_path / ".uictest.lock").unlink()
+        (tmp_path / ".uictest.lock").write_text("mine")
+    assert (tmp_path / ".uictest.lock").read_text() == "mine"
 
 
 def test_where_there_are_no_locks_nobody_is_refused(tmp_path, monkeypatch):
@@ -92,36 +97,25 @@ def test_where_there_are_no_locks_nobody_is_refused(tmp_path, monkeypatch):
             FolderLock(tmp_path, abandoned=True)
 
 
-def _link(place, victim):
-    place.symlink_to(victim)
+FOREIGN = {
+    "link": lambda place, victim: place.symlink_to(victim),
+    "hard link": lambda place, victim: place.hardlink_to(victim),
+    "copy": lambda place, victim: place.write_bytes(victim.read_bytes()),
+    "pipe": lambda place, victim: os.mkfifo(place),
+    "folder": lambda place, victim: place.mkdir(),
+}
 
 
-def _hard_link(place, victim):
-    place.hardlink_to(victim)
-
-
-def _copy(place, victim):
-    place.write_bytes(victim.read_bytes())
-
-
-def _pipe(place, _):
-    os.mkfifo(place)
-
-
-def _folder(place, _):
-    place.mkdir()
-
-
-@pytest.mark.parametrize("make", [_link, _hard_link, _copy, _pipe, _folder])
+@pytest.mark.parametrize("kind", FOREIGN)
 @pytest.mark.parametrize("content", ["mine", ""])
-def test_what_is_no_lock_of_uictest_is_neither_followed_nor_changed(tmp_path, make, content):
+def test_what_is_no_lock_of_uictest_is_neither_followed_nor_changed(tmp_path, kind, content):
     """A link led to the file of somebody else, which was emptied and given the name of a process."""
     victim, folder = tmp_path / "victim.txt", tmp_path / "reports"
     victim.write_text(content)
     folder.mkdir()
-    if make is _copy and not content:
+    if kind == "copy" and not content:
         pytest.skip("an empty file of this name is a lock that is being made")
-    make(folder / ".uictest.lock", victim)
+    FOREIGN[kind](folder / ".uictest.lock", victim)
     before = (folder / ".uictest.lock").lstat()
     with pytest.raises(FileExistsError, match="is no lock of uictest and stays as it is") as caught:
         FolderLock(folder)
@@ -135,22 +129,18 @@ def test_what_is_no_lock_of_uictest_is_neither_followed_nor_changed(tmp_path, ma
     assert victim.read_text() == content
 
 
-def test_a_link_that_leads_nowhere_makes_no_file_there(tmp_path):
+def test_a_link_makes_no_file_where_it_leads(tmp_path):
     (tmp_path / ".uictest.lock").symlink_to(tmp_path / "made")
     with pytest.raises(FileExistsError):
         FolderLock(tmp_path)
     assert not (tmp_path / "made").exists()
-
-
-def test_a_file_that_another_program_put_there_stays(tmp_path):
-    (tmp_path / ".lock").write_text("theirs")
-    with FolderLock(tmp_path):
-        pass
-    assert (tmp_path / ".lock").read_text() == "theirs"
-    with FolderLock(tmp_path):
-        (tmp_path / ".uictest.lock").unlink()
-        (tmp_path / ".uictest.lock").write_text("mine")
-    assert (tmp_path / ".uictest.lock").read_text() == "mine"
+    (tmp_path / "there").mkdir()
+    (tmp_path / "link").symlink_to("there")
+    with FolderLock(tmp_path / "link"):  # as the user named it
+        assert (tmp_path / "there" / ".uictest.lock").is_file()
+    with pytest.raises(OSError, match="is a link, which is not followed"):
+        FolderLock(tmp_path, "link")
+    assert list((tmp_path / "there").iterdir()) == []
 
 
 def test_a_file_that_its_last_holder_removed_meanwhile_is_no_lock(tmp_path, monkeypatch):
@@ -182,16 +172,6 @@ def test_a_file_that_another_process_made_meanwhile_is_left_to_it(tmp_path, monk
     assert path.exists()
     held[0].release()
     assert not path.exists()
-
-
-def test_no_lock_is_made_behind_a_link(tmp_path):
-    (tmp_path / "there").mkdir()
-    (tmp_path / "link").symlink_to("there")
-    with FolderLock(tmp_path / "link"):  # as the user named it
-        assert (tmp_path / "there" / ".uictest.lock").is_file()
-    with pytest.raises(OSError, match="is a link, which is not followed"):
-        FolderLock(tmp_path, "link")
-    assert list((tmp_path / "there").iterdir()) == []
 
 
 def test_a_lock_that_is_removed_after_it_is_closed_is_not_abandoned_meanwhile(tmp_path, monkeypatch):

@@ -29,10 +29,13 @@ def test_a_published_folder_appears_under_its_name_with_its_files(tmp_path):
     assert (place / "summary.csv").read_text() == "id\n"
 
 
-def test_a_taken_name_gets_a_number(tmp_path):
+def test_a_taken_name_gets_a_number_also_where_it_is_taken_meanwhile(tmp_path):
     for expected in ("run", "run-2", "run-3"):
         with RunFolder(tmp_path, "run") as folder:
             assert folder.publish().name == expected
+    with RunFolder(tmp_path, "later") as folder:
+        (tmp_path / "later").mkdir()
+        assert folder.publish() == tmp_path / "later-2"
 
 
 def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path):
@@ -44,13 +47,7 @@ def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path):
     assert tuple(place.name for place in reversed(places)) == names
 
 
-def test_a_name_that_is_taken_meanwhile_gets_a_number(tmp_path):
-    with RunFolder(tmp_path, "run") as folder:
-        (tmp_path / "run").mkdir()
-        assert folder.publish() == tmp_path / "run-2"
-
-
-def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path):
+def test_a_folder_that_is_not_published_leaves_what_others_put_beside_it_and_nothing_else(tmp_path):
     def fail_halfway():
         with RunFolder(tmp_path / "deep" / "reports", "run") as folder:
             write(folder.path, "recordings/half.csv", "i")
@@ -59,9 +56,6 @@ def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path
     with pytest.raises(OSError, match="No space left"):
         fail_halfway()
     assert list(tmp_path.iterdir()) == []
-
-
-def test_an_abandoned_folder_leaves_what_others_put_beside_it_and_none_is_made_below_a_file(tmp_path):
     with RunFolder(tmp_path / "reports", "run"):
         (tmp_path / "reports" / "note.txt").write_text("mine")
     assert [path.name for path in (tmp_path / "reports").iterdir()] == ["note.txt"]
@@ -104,15 +98,12 @@ def _run(parent, name):
     return run
 
 
-def test_latest_follows_the_newest_run(tmp_path):
+def test_latest_follows_the_newest_run_by_a_link_that_can_be_moved_with_its_folder(tmp_path):
     for name in ("first", "second"):
         point_latest(_run(tmp_path, name))
         found = latest_run(tmp_path)
         assert found.name == name
     assert sorted(path.name for path in tmp_path.iterdir()) == ["first", LATEST, "second"]
-
-
-def test_the_link_is_relative_so_that_the_folder_can_be_moved(tmp_path):
     (tmp_path / "here").mkdir()
     point_latest(_run(tmp_path / "here", "run"))
     (tmp_path / "here").rename(tmp_path / "there")

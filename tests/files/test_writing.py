@@ -15,6 +15,11 @@ def test_the_file_has_the_content_at_the_end_of_the_block_and_nothing_is_left_be
     target = tmp_path / ("c" * 247 + ".parquet")
     write_to(target, "x")
     assert target.read_text() == "x"
+    target = tmp_path / "index.html"
+    with new_file(tmp_path, "index.html") as file:
+        file.write(b"<html>")
+        assert not target.exists()
+    assert target.read_text() == "<html>"
 
 
 def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path):
@@ -25,14 +30,11 @@ def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path):
         raise KeyboardInterrupt
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
-
-
-def test_nothing_stands_at_the_path_before_the_block_ends(tmp_path):
-    target = tmp_path / "index.html"
-    with new_file(tmp_path, "index.html") as file:
-        file.write(b"<html>")
-        assert not target.exists()
-    assert target.read_text() == "<html>"
+    (tmp_path / "kept").mkdir()
+    for name in ("a/b/stop.parquet", "kept/stop.parquet"):
+        with pytest.raises(ZeroDivisionError), new_file(tmp_path, name):
+            raise ZeroDivisionError
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["kept", "results.json"]
 
 
 def test_a_full_disk_is_reported_and_leaves_nothing(tmp_path, monkeypatch):
@@ -55,7 +57,7 @@ def test_errors_name_the_file_that_was_to_be_written(tmp_path, folder):
     assert "partial" not in str(caught.value)
 
 
-def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path):
+def test_a_file_that_cannot_be_put_in_its_place_is_named_and_another_error_keeps_its_name(tmp_path):
     target = tmp_path / "taken"
     target.mkdir()
     (target / "inside").touch()
@@ -64,9 +66,6 @@ def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path):
     assert caught.value.filename == str(target)
     assert "partial" not in str(caught.value)
     assert list(tmp_path.iterdir()) == [target]
-
-
-def test_an_error_about_another_file_keeps_its_name(tmp_path):
     other = tmp_path / "other"
     with pytest.raises(FileNotFoundError) as caught, new_file(tmp_path, "a.txt"):
         other.read_text()
@@ -111,11 +110,3 @@ def test_a_link_is_neither_replaced_nor_followed(tmp_path, target):
     assert link.is_symlink()
     assert (tmp_path / "file").read_text() == "mine"
     assert not (tmp_path / "nothing").exists()
-
-
-def test_a_failed_write_leaves_no_folder_that_it_has_made(tmp_path):
-    (tmp_path / "kept").mkdir()
-    for name in ("a/b/stop.parquet", "kept/stop.parquet"):
-        with pytest.raises(ZeroDivisionError), new_file(tmp_path, name):
-            raise ZeroDivisionError
-    assert [path.name for path in tmp_path.iterdir()] == ["kept"]

@@ -62,7 +62,7 @@ def study(
     return FirmnessStudy(numbers, judge, validity=frozenset({"counts"}), effort=effort, **others).run()
 
 
-def test_what_no_number_touches_is_firm_if_the_draws_suffice():
+def test_what_no_number_touches_is_firm_if_the_draws_suffice_also_in_being_no_test():
     full = study([A, B], lambda a, b: 1.0, effort=Effort(8, 128, 16, 4))
     assert (full.status, full.counted, full.turned, full.share, full.turned_by) == ("firm", 1024, 0, 1.0, ())
     # Of n independent draws none turned: a larger share of turning ones than 1 - 0.05^(1/n) is ruled out.
@@ -70,23 +70,25 @@ def test_what_no_number_touches_is_firm_if_the_draws_suffice():
     few = study([A, B], lambda a, b: 1.0)
     assert few.status == "not_shown"
     assert few.share_at_least == pytest.approx(0.05 ** (1 / 256))
+    outcome = study([A], lambda a: 1.0, validity=lambda a: -1.0, effort=Effort(8, 128, 16, 4))
+    assert (outcome.nominal, outcome.status, outcome.counted) == ("invalid", "firm", 1024)
 
 
 def test_a_monotone_number_turns_it_at_its_limit():
     firmness = study([A, B], lambda a, b: 0.3 * (2.0 - a))
     [turn] = firmness.turned_by
-    assert (turn.key, turn.side, turn.criterion, turn.to, turn.end) == (
-        "a",
-        "above",
-        "limit",
-        "fail",
-        "105 N",
-    )
+    told = turn.key, turn.side, turn.criterion, turn.to, turn.end
+    assert told == ("a", "above", "limit", "fail", "105 N")
     assert float(turn.value.removesuffix(" N")) == pytest.approx(102.0, abs=0.1)
     # Three tenths of the range lie beyond 102 N.
     assert firmness.share == pytest.approx(0.7, abs=0.03)
     assert firmness.lowest_block <= firmness.share <= firmness.highest_block
     assert firmness.status == "turns"
+    [turn] = study([A], lambda a: 2.0 - a, noise=1.0).turned_by
+    stands_to, value, turned_from = (
+        float(text.removesuffix(" N")) for text in (turn.stands_to, turn.value, turn.turned_from)
+    )
+    assert 101.0 - 0.7 <= stands_to <= value <= turned_from <= 103.0 + 0.7
 
 
 def test_a_place_is_not_rounded_past_the_nominal_value():
@@ -94,14 +96,6 @@ def test_a_place_is_not_rounded_past_the_nominal_value():
     near = fine.nominal_place
     assert fine.rounded_text(near - 1e-5, up=True) == "100.004 N"
     assert fine.rounded_text(near + 1e-5, up=False) == "100.004 N"
-
-
-def test_each_value_said_of_a_turn_is_one_that_was_tried():
-    [turn] = study([A], lambda a: 2.0 - a, noise=1.0).turned_by
-    stands_to, value, turned_from = (
-        float(text.removesuffix(" N")) for text in (turn.stands_to, turn.value, turn.turned_from)
-    )
-    assert 101.0 - 0.7 <= stands_to <= value <= turned_from <= 103.0 + 0.7
 
 
 def test_an_interaction_turns_in_draws_and_by_no_number_alone():
@@ -214,15 +208,15 @@ def test_what_is_required_of_a_stop_does_not_say_whether_it_is_a_test(statuses, 
         assert drawn(outcome, verdicts).is_test == is_test
 
 
-def test_values_that_do_not_fit_together_are_counted_apart():
+def test_values_that_do_not_fit_together_are_counted_apart_and_at_an_end_nothing_is_firm():
     firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a + b < 5.0)
     assert firmness.outcomes["error"] == firmness.draws - firmness.counted > 0
     assert firmness.turned == 0
-
-
-def test_a_stop_that_is_no_test_is_firm_in_being_none():
-    outcome = study([A], lambda a: 1.0, validity=lambda a: -1.0, effort=Effort(8, 128, 16, 4))
-    assert (outcome.nominal, outcome.status, outcome.counted) == ("invalid", "firm", 1024)
+    full = Effort(8, 128, 16, 4)
+    firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a < 5.0, effort=full)
+    assert (firmness.turned, firmness.not_run, firmness.status) == (0, ("a",), "not_shown")
+    firmness = study([], lambda: 1.0)
+    assert (firmness.status, firmness.draws) == ("not_shown", 0)
 
 
 def test_margins_at_the_ends_are_medians_over_the_seeds():
@@ -273,17 +267,6 @@ def test_a_part_of_the_range_without_a_test_is_no_place_where_a_verdict_turns():
     assert float(turn.value.removesuffix(" N")) == pytest.approx(104.0, abs=0.15)
 
 
-def test_without_numbers_nothing_is_shown():
-    firmness = study([], lambda: 1.0)
-    assert (firmness.status, firmness.draws) == ("not_shown", 0)
-
-
-def test_nothing_is_firm_that_could_not_be_run_at_an_end():
-    full = Effort(8, 128, 16, 4)
-    firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a < 5.0, effort=full)
-    assert (firmness.turned, firmness.not_run, firmness.status) == (0, ("a",), "not_shown")
-
-
 def test_the_share_of_calibrated_draws_is_that_of_the_draws_under_which_the_calibrating_stops_hold():
     def hold(columns):
         return (columns[0].numbers >= 100.0).tolist()
@@ -300,43 +283,41 @@ def test_the_share_of_calibrated_draws_is_that_of_the_draws_under_which_the_cali
     assert study([A, B], lambda a, b: 1.0).calibrated is None
 
 
-def test_another_reading_is_as_firm_as_itself_and_decides_no_outcome():
+def of_readings(status, statuses, readings, validity=frozenset()):
+    """Study what a stop is called, and its criteria and readings, at each value of one number."""
+
     def judge(columns, seeds):
-        force = columns[0].numbers - 100.0
+        values = (columns[0].numbers - 100.0).tolist()
         return [
-            Drawn(
-                "pass" if value < 4.0 else "fail",
-                # The reading comes first, and fails before the criterion does.
-                {
-                    "slide read as depth": "pass" if value < 2.0 else "fail",
-                    "slide": "pass" if value < 4.0 else "fail",
-                },
-                readings={"slide read as depth": "slide"},
-            )
-            for value in force.tolist()
+            Drawn(status(a), statuses(a), readings=readings, is_test=status(a) != "invalid") for a in values
         ]
 
-    found = FirmnessStudy([A], judge, effort=SMALL).run()
+    return FirmnessStudy([A], judge, validity=validity, effort=SMALL).run()
+
+
+def passes(holds, otherwise="fail"):
+    return "pass" if holds else otherwise
+
+
+def test_another_reading_is_as_firm_as_itself_and_decides_no_outcome():
+    """The reading comes first, and fails before the criterion does."""
+    found = of_readings(
+        lambda a: passes(a < 4.0),
+        lambda a: {"slide read as depth": passes(a < 2.0), "slide": passes(a < 4.0)},
+        {"slide read as depth": "slide"},
+    )
     assert found.turned_by[0].criterion == "slide"
-    of_each = {each.criterion: each.share for each in found.criteria}
-    assert of_each == {
-        "slide": pytest.approx(0.9, abs=0.02),
-        "slide read as depth": pytest.approx(0.7, abs=0.02),
-    }
+    shares = {each.criterion: each.share for each in found.criteria}
+    assert shares["slide"] == pytest.approx(0.9, abs=0.02)
+    assert shares["slide read as depth"] == pytest.approx(0.7, abs=0.02)
 
 
 def test_a_reading_of_a_criterion_of_validity_counts_where_the_stop_is_no_test():
-    def judge(columns, seeds):
-        return [
-            Drawn(
-                "pass" if value < 0.5 else "invalid",
-                {"counts": "pass" if value < 0.5 else "fail", "counts read as other": "pass"},
-                readings={"counts read as other": "counts"},
-                is_test=value < 0.5,
-            )
-            for value in (columns[0].numbers - 100.0).tolist()
-        ]
-
-    found = FirmnessStudy([A], judge, validity=frozenset({"counts"}), effort=SMALL).run()
+    found = of_readings(
+        lambda a: passes(a < 0.5, "invalid"),
+        lambda a: {"counts": passes(a < 0.5), "counts read as other": "pass"},
+        {"counts read as other": "counts"},
+        frozenset({"counts"}),
+    )
     of_each = {each.criterion: (each.counted, each.turned) for each in found.criteria}
     assert of_each["counts read as other"] == (256, 0)

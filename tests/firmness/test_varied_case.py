@@ -51,6 +51,17 @@ def measures(results):
     return [f"{each.outcome} {each.measures} {each.wheelsets}" for each in results]
 
 
+def at_ends(case, key):
+    """The results of a case under seed 1 at both ends of the range of a number."""
+    [number] = [each for each in ranged_numbers(case.scenario) if each.key == key]
+    seeds = listed_column([ParameterValue("1", 1)] * 2)
+    return VariedCase(case, [key]).results({key: number.at(np.array([0.0, 1.0])), "seed": seeds})
+
+
+def sentences(firm):
+    return list(firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal)))
+
+
 def test_nominal_values_give_the_stop_itself_under_each_seed(numbers):
     varied = VariedCase(short_stop(), list(numbers), jobs=2)
     cases = [short_stop(f"seed={seed}") for seed in range(3)]
@@ -75,13 +86,7 @@ def test_only_stops_of_the_regular_step_are_surveyed_and_the_report_says_so():
     regular = FirmnessRun(1, effort=SMALL).of_case(short_stop())
     other = FirmnessRun(1, effort=SMALL).of_case(short_stop("simulation.time_step=0.25 ms"))
     assert (regular.in_survey_steps, other.in_survey_steps) == (True, False)
-    told = [
-        any(
-            "steps of 1 ms" in each
-            for each in firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal))
-        )
-        for firm in (regular, other)
-    ]
+    told = [any("steps of 1 ms" in each for each in sentences(firm)) for firm in (regular, other)]
     assert told == [True, False]
 
 
@@ -159,20 +164,22 @@ def test_draws_of_a_random_rail_meet_one_rail_each():
     assert [0] * 8 in seeds
 
 
-def test_numbers_of_a_part_that_the_scenario_replaces_are_not_varied(numbers):
+def test_numbers_of_replaced_parts_are_not_varied_and_those_of_the_scenario_by_their_own_range(numbers):
     assert "rail.condition.friction" not in numbers
     assert "brake.system.positions.R.maximum_pressure" in numbers
     assert "brake.system.positions.G.maximum_pressure" not in numbers
     assert not any(key.startswith("controller") for key in numbers)
+    friction = "rail.friction={value: 0.06, range: [0.05, 0.09]}"
+    case = short_stop("rail.gradient={value: 0 permille, range: [-2 permille, 3 permille]}", friction)
+    own = {each.key: each for each in ranged_numbers(case.scenario) if each.mark == "user"}
+    assert own["rail.gradient"].nominal_place == pytest.approx(0.4)
+    assert own["rail.friction"].nominal_place == pytest.approx(0.25)
 
 
 def test_a_number_of_a_sander_is_varied_and_less_sand_is_laid():
     case = short_stop("sanders=[{wheelset: 1, rate: {value: 6 kg/min, range: [1 kg/min, 6 kg/min]}}]")
-    known = {each.key: each for each in ranged_numbers(case.scenario)}
-    assert {"sanders.0.rate", "rail.sand.kept"} <= set(known)
-    rate = known["sanders.0.rate"].at(np.array([1.0, 0.0]))
-    seeds = listed_column([ParameterValue("1", 1)] * 2)
-    most, least = VariedCase(case, ["sanders.0.rate"]).results({"sanders.0.rate": rate, "seed": seeds})
+    assert "rail.sand.kept" in {each.key for each in ranged_numbers(case.scenario)}
+    least, most = at_ends(case, "sanders.0.rate")
     assert most.measures["braking_distance_m"] < least.measures["braking_distance_m"]
 
 
@@ -187,8 +194,7 @@ def test_numbers_of_further_brakes_and_sanders_without_a_range_are_named():
     assert "brake.track.attraction" not in named
     firm = FirmnessRun(1, effort=SMALL).of_case(case)
     assert firm.without_range == tuple(named)
-    told = list(firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal)))
-    assert f"not varied, as no range is stated: {', '.join(named)}" in told
+    assert f"not varied, as no range is stated: {', '.join(named)}" in sentences(firm)
 
 
 PROFILE = "rail.friction={points: [{position: 0 m, friction: 0.06}, {position: 10 m, friction: %s}]}"
@@ -215,8 +221,7 @@ def test_friction_scatters_from_draw_to_draw_where_a_range_says_so_and_else_is_n
     at_rail = [each.key for each in firm.numbers if each.key.endswith("friction") and "rail." in each.key]
     assert [key for key in at_rail if "recovered" not in key] == drawn
     assert list(firm.without_range) == unranged
-    told = list(firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal)))
-    assert [each for each in told if "no range is stated" in each] == [
+    assert [each for each in sentences(firm) if "no range is stated" in each] == [
         f"not varied, as no range is stated: {key}" for key in unranged
     ]
 
@@ -224,20 +229,9 @@ def test_friction_scatters_from_draw_to_draw_where_a_range_says_so_and_else_is_n
 def test_draws_of_the_friction_of_the_rail_are_stops_on_other_rails():
     """On the best rail of the range the wheels do not slide; on the worst they do."""
     case = short_stop("rail.friction={value: 0.06, range: [0.03, 0.3]}")
-    known = {each.key: each for each in ranged_numbers(case.scenario)}
-    friction = known["rail.friction"].at(np.array([0.0, 1.0]))
-    seeds = listed_column([ParameterValue("1", 1)] * 2)
-    worst, best = VariedCase(case, ["rail.friction"]).results({"rail.friction": friction, "seed": seeds})
+    worst, best = at_ends(case, "rail.friction")
     [stated] = run_cases([short_stop("rail.friction=0.03", "seed=1")]).results
     # Its noise is that of the case, so that it is not the very same stop.
     distance = stated.measures["braking_distance_m"]
     assert worst.measures["braking_distance_m"] == pytest.approx(distance, rel=0.05)
     assert worst.measures["braking_distance_m"] > 1.5 * best.measures["braking_distance_m"]
-
-
-def test_a_number_of_the_scenario_may_state_a_range_of_its_own():
-    friction = "rail.friction={value: 0.06, range: [0.05, 0.09]}"
-    case = short_stop("rail.gradient={value: 0 permille, range: [-2 permille, 3 permille]}", friction)
-    own = {each.key: each for each in ranged_numbers(case.scenario) if each.mark == "user"}
-    assert own["rail.gradient"].nominal_place == pytest.approx(0.4)
-    assert own["rail.friction"].nominal_place == pytest.approx(0.25)

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 from uictest.core.physics.rail import contact_stiffness, creep_force
 from uictest.core.recording import TIME, Recording
-from uictest.plans.scenario import load_part
+from uictest.plans.scenario import load, load_part
 from uictest.recorded.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
 from uictest.recorded.fitting import FitError, fit_stop
 from uictest.recorded.fitting.balances import (
@@ -18,10 +18,46 @@ from uictest.recorded.fitting.balances import (
     wheelset_creep_force,
     windows_of,
 )
-from uictest.recorded.fitting.fit import in_a_row, stretch_names, stretch_of
+from uictest.recorded.fitting.fit import Estimate, Fit, in_a_row, stretch_names, stretch_of
+from uictest.recorded.fitting.outputs import fitted_yaml, friction_of
 from uictest.rig import simulate
 
-from .conftest import recorded_stop
+NOISE = {"speed": 0.05, "wheel_speed": 0.03, "clamping_force": 50.0}
+"""Standard deviations, m/s and N; wheel speeds are read by the rig's toothed wheels besides."""
+LOADCELL_GAIN = 0.005
+"""Standard deviation of the gain errors of loadcells, share."""
+
+
+def _with_sensor_noise(recording, dice):
+    time = np.asarray(recording[TIME])
+
+    def noise(kind):
+        return dice.normal(0.0, NOISE[kind], len(time))
+
+    samples = {"speed": recording["speed"] + noise("speed")}
+    for n in (1, 2, 3, 4):
+        samples[f"wheel_speed_{n}"] = recording[f"measured_speed_{n}"] + noise("wheel_speed")
+        gain = 1.0 + dice.normal(0.0, LOADCELL_GAIN)
+        samples[f"clamping_force_{n}"] = gain * recording[f"clamping_force_{n}"] + noise("clamping_force")
+    return {name: RawChannel(name, name, time, np.asarray(values)) for name, values in samples.items()}
+
+
+def recorded_stop(speed, friction, seed=0, without=(), every=0.01, **facts):
+    """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed.
+
+    A sample `every` so many seconds.
+    """
+    wsp = facts.get("wsp", "active")
+    case = stated_case(
+        "stop",
+        speed / 3.6,
+        ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}", *facts.get("settings", ())],
+    )
+    recording = simulate(case, record_every=every).recording
+    channels = _with_sensor_noise(recording, np.random.default_rng(seed))
+    kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
+    return case, prepare(kept, recording.metadata, Preparation())
+
 
 CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]
 STEPS = [(80.0, 0.10, 0.06), (80.0, 0.06, 0.09), (100.0, 0.09, 0.06), (100.0, 0.06, 0.10)]
@@ -275,3 +311,76 @@ def test_a_stop_that_a_track_brake_slowed_as_well_is_no_stop_for_a_fit():
     case, stop = recorded_stop(60, 0.06, settings=["brake.track={attraction: 100 kN, when: always}"])
     with pytest.raises(FitError, match="a track brake slowed the train"):
         samples_of(stop, case.scenario)
+
+
+NAN = float("nan")
+HEAD = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 80 km/h\n"
+
+
+def fit(*estimates, breaks=()):
+    """Return a fit with these standings and values, one for each stretch."""
+    found = [Estimate("friction", standing, value, NAN, 1) for standing, value in estimates]
+    return Fit(breaks, tuple(found), None, 0.001)
+
+
+@pytest.fixture
+def case():
+    """A stop on a rail of friction 0.3, as far as its scenario knows."""
+    return stated_case("guess", 80.0 / 3.6, ["rail.condition=wet", "rail.friction=0.3"])
+
+
+@pytest.mark.parametrize(
+    ("estimate", "friction"),
+    [
+        (("found", 0.0712345678), 0.07123),
+        (("at least", 0.2), 0.3),
+        (("at least", 0.4), 0.4),
+        (("found", 1.2), 1.0),
+    ],
+)
+def test_friction_is_what_was_found_or_the_scenarios_own_unless_it_is_higher(case, estimate, friction):
+    """A scenario takes no friction above 1."""
+    assert friction_of(fit(estimate), case.scenario) == friction
+
+
+def test_a_stretch_that_no_wheelset_reached_takes_its_neighbours_friction(case):
+    fitted = fit(("found", 0.07), ("not reached", NAN), ("found", 0.1), breaks=(50.0, 120.0))
+    assert friction_of(fitted, case.scenario) == {
+        "points": [
+            {"position": "0 m", "friction": 0.07},
+            {"position": "50 m", "friction": 0.07},
+            {"position": "120 m", "friction": 0.1},
+        ],
+        "interpolation": "steps",
+    }
+
+
+def test_a_stretch_that_begins_behind_the_brake_command_has_one_before_it(case):
+    points = friction_of(fit(("found", 0.07), ("found", 0.1), breaks=(-20.0,)), case.scenario)
+    assert [each["position"] for each in points["points"]] == ["-21 m", "-20 m"]
+
+
+def test_a_fitted_rail_varies_no_more_at_random(tmp_path):
+    """What it was is in the friction that was found."""
+    path = tmp_path / "own.yaml"
+    path.write_text(HEAD.format(name="own") + "rail: {condition: wet-varied}\n", "utf-8")
+    [case] = load([path])
+    fitted = tmp_path / "fitted.yaml"
+    fitted.write_text(fitted_yaml(case, {}, fit(("found", 0.07)), path, tmp_path), "utf-8")
+    [read] = load([fitted])
+    assert case.scenario.rail.variation_in_force is not None
+    assert read.scenario.rail.variation_in_force is None
+    assert friction_of(fit(("at least", 0.2)), case.scenario) == 0.3
+
+
+@pytest.mark.parametrize("length", [5, 100])
+def test_a_fitted_scenario_has_a_name_that_scenarios_can_have(tmp_path, length):
+    name = "s" * length
+    path = tmp_path / "own.yaml"
+    path.write_text(HEAD.format(name=name) + "rail: {condition: wet}\n", "utf-8")
+    [case] = load([path])
+    fitted = tmp_path / "fitted.yaml"
+    fitted.write_text(fitted_yaml(case, {}, fit(("found", 0.07)), path, tmp_path), "utf-8")
+    [read] = load([fitted])
+    assert read.scenario.name == f"{name[:90]}-fitted"
+    assert read.scenario.rail.friction == 0.07

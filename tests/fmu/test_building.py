@@ -23,23 +23,30 @@ VERSIONS = pytest.mark.parametrize("version", [2, 3])
 
 
 @VERSIONS
-def test_fmpy_finds_nothing_wrong(build, version):
+def test_the_description_is_valid_and_says_what_other_tools_must_know(build, case, version):
     from fmpy.validation import validate_fmu
 
     assert validate_fmu(str(build(version))) == []
-
-
-@VERSIONS
-def test_the_description_says_what_other_tools_must_know(build, version):
+    assert fmu.build_fmu(case, version) == build(version).read_bytes()
     described = fmpy.read_model_description(str(build(version)))
-    simulation = described.coSimulation
+    simulation, variables = described.coSimulation, described.modelVariables
     assert not simulation.canHandleVariableCommunicationStepSize
     assert not simulation.canBeInstantiatedOnlyOncePerProcess
     assert described.defaultExperiment.stepSize == "0.01"
-    units = {each.name: each.unit for each in described.modelVariables}
+    longest = float(case.scenario.simulation.maximum_duration)
+    assert float(described.defaultExperiment.stopTime) == pytest.approx(longest)
+    quantities = {"speed": "m/s", "pressure": "Pa", "distance": "m", "time": "s", "load": "N", "force": "N"}
+    quantities["torque"] = "N.m"
+    for variable in variables:
+        quantity = variable.name.rstrip("_1234").rpartition("_")[2]
+        assert variable.unit == quantities.get(quantity), variable.name
+    units = {each.name: each.unit for each in variables}
     assert (units["wheel_speed_1"], units["cylinder_pressure_4"], units["distance"]) == ("m/s", "Pa", "m")
-    inputs = {each.name: each.type for each in described.modelVariables if each.causality == "input"}
+    inputs = {each.name: each.type for each in variables if each.causality == "input"}
     assert inputs == {f"{magnet}_{i}": "Boolean" for magnet in ("hold", "vent") for i in (1, 2, 3, 4)}
+    [seed] = [each for each in variables if each.causality == "parameter"]
+    largest = {2: 2**31 - 1, 3: 2**32 - 1}[version]
+    assert (seed.name, int(seed.start), int(seed.min), int(seed.max)) == ("seed", 5, 0, largest)
     # Without a direct way from input to output a tool finds no algebraic loop.
     assert all(unknown.dependencies == [] for unknown in described.outputs)
 
@@ -75,47 +82,7 @@ def test_units_are_told_in_those_of_the_si_and_in_those_that_people_read(build, 
 
 
 @VERSIONS
-def test_every_variable_has_the_unit_of_its_quantity(build, version):
-    quantities = {"speed": "m/s", "pressure": "Pa", "distance": "m", "time": "s", "load": "N", "force": "N"}
-    quantities["torque"] = "N.m"
-    for variable in fmpy.read_model_description(str(build(version))).modelVariables:
-        quantity = variable.name.rstrip("_1234").rpartition("_")[2]
-        assert variable.unit == quantities.get(quantity), variable.name
-
-
-@VERSIONS
-def test_the_seed_and_the_longest_duration_are_those_of_the_case(build, case, version):
-    description = fmpy.read_model_description(str(build(version)))
-    longest = float(case.scenario.simulation.maximum_duration)
-    assert float(description.defaultExperiment.stopTime) == pytest.approx(longest)
-    [seed] = [each for each in description.modelVariables if each.causality == "parameter"]
-    largest = {2: 2**31 - 1, 3: 2**32 - 1}[version]
-    assert (seed.name, int(seed.start), int(seed.min), int(seed.max)) == ("seed", 5, 0, largest)
-
-
-def test_the_token_of_a_description_is_a_guid_of_its_own(build):
-    tokens = [described(build(2)).get("guid", ""), described(build(3)).get("instantiationToken", "")]
-    for token in tokens:
-        assert str(uuid.UUID(token)) == token.strip("{}")
-    assert tokens[0] != tokens[1]
-
-
-@VERSIONS
-def test_only_functions_of_fmi_are_exported(build, version, tmp_path):
-    tool = shutil.which("nm")
-    if tool is None:
-        pytest.skip("there is no nm here")
-    library = extracted(build(version), tmp_path)
-    shown = subprocess.run(
-        [tool, "-D", "--defined-only", library], capture_output=True, text=True, check=True
-    )
-    names = [line.split()[-1] for line in shown.stdout.splitlines()]
-    assert f"fmi{version}DoStep" in names
-    assert [name for name in names if not name.startswith("fmi")] == []
-
-
-@VERSIONS
-def test_every_function_of_co_simulation_is_there(build, version, tmp_path):
+def test_every_function_of_co_simulation_is_exported_and_none_of_another_name(build, version, tmp_path):
     """As FMPy's header declares them: tools look all of them up."""
     import ctypes
 
@@ -127,22 +94,38 @@ def test_every_function_of_co_simulation_is_there(build, version, tmp_path):
         *("fmi2GetContinuousStates", "fmi2GetNominalsOfContinuousStates", "fmi2CompletedIntegratorStep"),
         *("fmi2EnterContinuousTimeMode", "fmi2NewDiscreteStates", "fmi2EnterEventMode"),
     }
-    library = ctypes.CDLL(str(extracted(build(version), tmp_path)))
+    path = extracted(build(version), tmp_path)
+    library = ctypes.CDLL(str(path))
     missing = {name for name in declared if not hasattr(library, name)}
     assert len(declared) > 40
     assert missing == (of_model_exchange if version == 2 else set())
+    if (tool := shutil.which("nm")) is None:
+        pytest.skip("there is no nm here")
+    command = [tool, "-D", "--defined-only", path]
+    shown = subprocess.run(command, capture_output=True, text=True, check=True)
+    names = [line.split()[-1] for line in shown.stdout.splitlines()]
+    assert f"fmi{version}DoStep" in names
+    assert [name for name in names if not name.startswith("fmi")] == []
 
 
-@VERSIONS
-def test_the_same_case_gives_the_same_bytes(build, case, version):
-    assert fmu.build_fmu(case, version) == build(version).read_bytes()
-
-
-def test_nothing_of_the_machine_is_in_it(build, case):
+def test_the_archive_is_the_same_on_every_machine(build, case):
+    """Nothing of the machine is in it: no compression by its library, date, user's mode of access, folder."""
     with zipfile.ZipFile(build(2)) as archive:
+        facts = {
+            (each.compress_type, each.date_time, each.create_system, each.external_attr >> 16)
+            for each in archive.infolist()
+        }
+        library = archive.read("binaries/win64/rig_stop.dll")
         content = b"".join(archive.read(name) for name in archive.namelist())
+    assert facts == {(zipfile.ZIP_STORED, (1980, 1, 1, 0, 0, 0), 3, 0o644)}
+    [header] = struct.unpack_from("<I", library, 0x3C)
+    assert struct.unpack_from("<I", library, header + 8) == (0,)  # when it was linked
     for own in (str(Path.home()), str(Path.cwd()), str(case.path.parent), "/tmp/uictest"):
         assert own.encode() not in content
+    tokens = [described(build(2)).get("guid", ""), described(build(3)).get("instantiationToken", "")]
+    for token in tokens:
+        assert str(uuid.UUID(token)) == token.strip("{}")
+    assert tokens[0] != tokens[1]
 
 
 @VERSIONS
@@ -159,20 +142,15 @@ def test_it_says_which_case_it_is(build, case, version):
 
 
 def test_an_fmu_refuses_the_description_of_another(build):
-    described = fmpy.read_model_description(str(build(2)))
-    with pytest.raises(Exception, match="instantiate"):
-        fmpy.simulate_fmu(swapped_token(build(2), described.guid), stop_time=0.1)
-
-
-def swapped_token(path, token):
-    other = path.with_name("other.fmu")
-    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(other, "w") as changed:
+    token = fmpy.read_model_description(str(build(2))).guid.encode()
+    other = build(2).with_name("other.fmu")
+    with zipfile.ZipFile(build(2)) as archive, zipfile.ZipFile(other, "w") as changed:
         for name in archive.namelist():
             content = archive.read(name)
-            if name == "modelDescription.xml":
-                content = content.replace(token.encode(), b"{0}")
-            changed.writestr(name, content)
-    return str(other)
+            is_description = name == "modelDescription.xml"
+            changed.writestr(name, content.replace(token, b"{0}") if is_description else content)
+    with pytest.raises(Exception, match="instantiate"):
+        fmpy.simulate_fmu(str(other), stop_time=0.1)
 
 
 def test_a_seed_beyond_the_integers_of_fmi_2_is_refused(case):
@@ -191,38 +169,15 @@ main()
 """
 
 
-@pytest.mark.parametrize(
-    "command", [("export-rig", "{}", "-o", "x.fmu"), ("export-controller", "threshold", "-o", "x.fmu")]
-)
+@pytest.mark.parametrize("command", ["export-rig {} -o x.fmu", "export-controller threshold -o x.fmu"])
 def test_no_compiler_is_needed(case, tmp_path, command):
     """Neither is the one that builds the libraries, which are there; what is written runs."""
-    arguments = [each.format(case.path) for each in command]
+    arguments = [sys.executable, "-c", WITHOUT, *command.format(case.path).split()]
     environment = {"PATH": "", "HOME": str(tmp_path), "CC": "no-such-compiler"}
-    done = subprocess.run(
-        [sys.executable, "-c", WITHOUT, *arguments],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-    )
+    done = subprocess.run(arguments, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
-    assert (
-        len(fmpy.simulate_fmu(str(tmp_path / "x.fmu"), stop_time=0.1, step_size=0.01, output_interval=0.01))
-        > 1
-    )
-
-
-def test_the_archive_is_the_same_on_every_machine(build):
-    """Nothing in it is compressed by a library of the machine, or has a date, or a user's mode of access."""
-    with zipfile.ZipFile(build(2)) as archive:
-        facts = {
-            (each.compress_type, each.date_time, each.create_system, each.external_attr >> 16)
-            for each in archive.infolist()
-        }
-        library = archive.read("binaries/win64/rig_stop.dll")
-    assert facts == {(zipfile.ZIP_STORED, (1980, 1, 1, 0, 0, 0), 3, 0o644)}
-    [header] = struct.unpack_from("<I", library, 0x3C)
-    assert struct.unpack_from("<I", library, header + 8) == (0,)  # when it was linked
+    file = str(tmp_path / "x.fmu")
+    assert len(fmpy.simulate_fmu(file, stop_time=0.1, step_size=0.01, output_interval=0.01)) > 1
 
 
 def extracted(path, folder):

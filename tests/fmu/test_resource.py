@@ -106,28 +106,31 @@ FAR = (-8, 2**40, 2**62)
 SECTIONS = ("variables", "arguments", "json", "memory", "constants", "texts")
 
 
+def is_refused(unpacked, change):
+    """Return whether a file that is changed so, with its checksum, is told as damaged."""
+    told = unpacked.why_not(content=forged(unpacked.content, change))
+    return told.startswith("the file of the FMU is damaged")
+
+
 @pytest.mark.parametrize("far", FAR)
-@pytest.mark.parametrize("part", [0, 1])
 @pytest.mark.parametrize("section", SECTIONS)
-def test_a_section_beyond_the_end_is_refused(unpacked, section, part, far):
-    def change(head, file):
-        head[section][part] = far
-
+def test_a_section_beyond_the_end_is_refused(unpacked, section, far):
     assert unpacked.why_not(content=forged(unpacked.content, lambda *same: None)) == ""
-    assert unpacked.why_not(content=forged(unpacked.content, change)).startswith(
-        "the file of the FMU is damaged"
-    )
+    for part in (0, 1):
+        assert is_refused(unpacked, lambda head, file, part=part: head[section].__setitem__(part, far))
 
 
 @pytest.mark.parametrize("far", FAR)
-@pytest.mark.parametrize("name", ["begun", "kept"])
-def test_more_than_the_memory_to_be_zeroed_is_refused(unpacked, name, far):
-    def change(head, file):
-        head[name] = far
+def test_a_variable_or_more_to_be_zeroed_than_the_memory_is_refused(unpacked, far):
+    for name in ("begun", "kept"):
+        assert is_refused(unpacked, lambda head, file, name=name: head.__setitem__(name, far))
+    for field in ("name", "place"):
 
-    assert unpacked.why_not(content=forged(unpacked.content, change)).startswith(
-        "the file of the FMU is damaged"
-    )
+        def change(head, file, field=field):
+            rows = np.frombuffer(file, VARIABLE_ROW, head["variables"][1], head["variables"][0])
+            rows[field][3] = far
+
+        assert is_refused(unpacked, change)
 
 
 @pytest.mark.parametrize("far", [*FAR, "last"])
@@ -137,37 +140,20 @@ def test_a_place_beyond_the_memory_is_refused(unpacked, name, far):
         last = head["memory"][1] - (0 if name == "closed" else 8)
         head["places"][ENUMERATIONS["PLACE"].index(name)] = last if far == "last" else far
 
-    assert unpacked.why_not(content=forged(unpacked.content, change)).startswith(
-        "the file of the FMU is damaged"
-    )
+    assert is_refused(unpacked, change)
 
 
-@pytest.mark.parametrize("far", FAR)
-@pytest.mark.parametrize("field", ["name", "place"])
-def test_a_variable_beyond_the_memory_is_refused(unpacked, field, far):
-    def change(head, file):
-        rows = np.frombuffer(file, VARIABLE_ROW, head["variables"][1], head["variables"][0])
-        rows[field][3] = far
-
-    assert unpacked.why_not(content=forged(unpacked.content, change)).startswith(
-        "the file of the FMU is damaged"
-    )
-
-
-def test_the_file_of_another_fmu_is_refused(unpacked, build, tmp_path):
+def test_the_file_of_another_fmu_is_refused_and_one_that_is_not_there_said_with_its_path(
+    unpacked, build, tmp_path
+):
     with zipfile.ZipFile(build(3)) as archive:
         other = archive.read(FILE_NAME)
-    assert unpacked.why_not(content=other).startswith(
-        "the file is not of the same FMU as the model description"
-    )
+    told = unpacked.why_not(content=other)
+    assert told.startswith("the file is not of the same FMU as the model description")
     older = bytearray(unpacked.content)
     older[8] ^= 1
-    assert "is of another version of uictest than the shared library" in unpacked.why_not(
-        content=bytes(older)
-    )
-
-
-def test_a_file_that_is_not_there_is_said_with_its_path(unpacked, tmp_path):
+    told = unpacked.why_not(content=bytes(older))
+    assert "is of another version of uictest than the shared library" in told
     shutil.copytree(unpacked.resources, tmp_path / "resources")
     (tmp_path / "resources/model.bin").unlink()
     heard = unpacked.why_not(str(tmp_path / "resources"))

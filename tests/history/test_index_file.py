@@ -54,29 +54,24 @@ def test_a_run_has_a_row_with_time_subject_verdict_and_distance(publish, reports
     assert without[4].endswith("–")  # noqa: RUF001 - a dash on paper
 
 
-def test_what_is_no_run_is_stated_with_its_reason(publish, reports):
-    publish()
+def test_names_of_runs_and_cases_are_text_whatever_they_hold_and_the_index_runs_no_script(publish, reports):
+    publish(replace(case("a"), scenario=f"{HOSTILE.replace('/', '|')}.yaml"))
+    assert "&lt;script&gt;alert(1)&lt;|script&gt;" in (reports / "index.html").read_text("utf-8")
+    (reports / HOSTILE.replace("/", "|")).mkdir()
+    (reports / "javascript:alert(1)").mkdir()
     (reports / "notes").mkdir()
     (reports / "half").mkdir()
     (reports / "half" / "manifest.json").write_text("{")
     (reports / ".x.0123.partial").mkdir()
     assert refresh_index(reports) == ""
     page = (reports / "index.html").read_text("utf-8")
-    assert "<code>notes</code>: not of uictest: there is no manifest.json" in page
-    assert "<code>half</code>: manifest.json is damaged" in page
-    assert "1 folder being filled, or left by a killed run." in page
-
-
-def test_hostile_names_are_text_and_the_index_runs_no_script(publish, reports):
-    publish(replace(case("a"), scenario=f"{HOSTILE.replace('/', '|')}.yaml"))
-    assert "&lt;script&gt;alert(1)&lt;|script&gt;" in (reports / "index.html").read_text("utf-8")
-    (reports / HOSTILE.replace("/", "|")).mkdir()
-    (reports / "javascript:alert(1)").mkdir()
-    assert refresh_index(reports) == ""
-    page = (reports / "index.html").read_text("utf-8")
     assert "<script" not in page
     assert "\u202e" not in page
     assert all(link.startswith(("./", "#")) for link in links(reports / "index.html"))
+    # What is no run is stated with its reason.
+    assert "<code>notes</code>: not of uictest: there is no manifest.json" in page
+    assert "<code>half</code>: manifest.json is damaged" in page
+    assert "1 folder being filled, or left by a killed run." in page
 
 
 @pytest.mark.parametrize("name", ["a b", "javascript:x", "per%cent", "q?a=b#c", "ü", "a%2f.."])

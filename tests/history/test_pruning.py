@@ -17,19 +17,17 @@ def fates(reports, keep, written, *referred, kind="run"):
     return {each.name: each.kept_because for each in prune(reports, kind, keep, written.name, referred)}
 
 
-def test_the_newest_stay_and_the_others_go(publish, reports):
-    runs = [publish() for _ in range(5)]
+def test_the_newest_stay_and_the_others_go_whatever_files_of_ours_they_hold(publish, reports):
+    runs = [publish(case("a"), formats=tuple(report.FORMATS)), *(publish() for _ in range(4))]
+    files.write(runs[0], "recordings/slip-120[friction=0.09].parquet", b"")
     with pytest.raises(ValueError, match="at least 1 run stays"):
         fates(reports, 0, runs[-1])
     assert fates(reports, 5, runs[-1]) == {}
     assert fates(reports, 2, runs[-1]) == {run.name: "" for run in reversed(runs[:3])}
     assert [run.exists() for run in runs] == [False, False, False, True, True]
-
-
-def test_the_run_just_written_stays_though_the_clock_went_back(publish, reports):
-    written, later = publish(), publish()
-    assert fates(reports, 1, written) == {later.name: "the link latest refers to it"}
-    assert written.exists()
+    # That just written stays, though the clock went back.
+    assert fates(reports, 1, runs[3]) == {runs[4].name: "the link latest refers to it"}
+    assert runs[3].exists()
 
 
 @pytest.fixture
@@ -50,16 +48,12 @@ def _replace_by_a_link(run):
 
 
 NOT_OURS = "it holds {}, which uictest did not write"
+THEIRS = ["review.md", "notes.csv", "index.html.bak", "sub/run.json", "recordings/mine.csv"]
+THEIRS += ["recordings/track-test.parquet", "recordings/a/b.parquet"]
+CHANGED = ["summary.csv", "manifest.json", "junit.xml"]
 REASONS = [
-    # Files of the user were removed that had a name which uictest gives as well; the last are ours, changed.
-    *(
-        (partial(_write, name=name), NOT_OURS.format(name))
-        for name in (
-            *("review.md", "notes.csv", "index.html.bak", "sub/run.json", "recordings/mine.csv"),
-            *("recordings/track-test.parquet", "recordings/a/b.parquet"),
-            *("summary.csv", "manifest.json", "junit.xml"),
-        )
-    ),
+    # Files of the user were removed that had a name which uictest gives as well.
+    *((partial(_write, name=name), NOT_OURS.format(name)) for name in THEIRS + CHANGED),
     (lambda run: (run / files.LIST).write_text("mine\n"), NOT_OURS.format(files.LIST)),
     (_replace_by_a_link, NOT_OURS.format("summary.csv")),
     (lambda run: (run / "mine").mkdir(), NOT_OURS.format("mine")),
@@ -212,12 +206,6 @@ def test_a_removal_cut_short_is_completed_by_the_next_run(publish, two, reports,
     assert len(list(reports.glob(".*.partial"))) == 1
     publish()
     assert list(reports.glob(".*.partial")) == []
-
-
-def test_every_file_of_a_run_is_listed(publish, reports):
-    old = publish(case("a"), formats=tuple(report.FORMATS))
-    files.write(old, "recordings/slip-120[friction=0.09].parquet", b"")
-    assert fates(reports, 1, publish()) == {old.name: ""}
 
 
 def test_what_comes_while_a_run_is_removed_stays_under_its_name(two, reports, monkeypatch):

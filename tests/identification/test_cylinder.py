@@ -32,7 +32,7 @@ def known(real=True):
 
 
 @pytest.fixture(scope="module")
-def short():
+def found():
     """What is found in a short record of the known response."""
     time, tank = excitation(8.0)
     return identify_cylinder(time, tank, known().output(tank))
@@ -57,12 +57,13 @@ def test_a_known_response_is_recovered_within_a_per_cent_up_to_20_hz(seed, real)
     assert result.fit > 95.0
 
 
-def test_unity_gain_at_rest_and_stability_hold_by_parametrisation(short):
-    result = short.transfer_function
+def test_unity_gain_stability_and_a_better_model_than_none(found):
+    result = found.transfer_function
     gain = sum(result.numerator) / (1.0 + sum(result.denominator))
     assert gain == pytest.approx(1.0, abs=1e-6)
     assert np.all(np.abs(result.poles) < 1.0)
     assert result.output(np.full(1000, 3e5)) == pytest.approx(3e5)
+    assert found.largest_after < 0.01 * found.largest_before
 
 
 def test_a_free_fit_follows_a_response_that_turns_back(overshooting):
@@ -84,10 +85,6 @@ def test_the_response_to_a_step_never_turns_back(overshooting):
     assert 0.99 < response.max() < 1.002
     assert np.all(np.maximum.accumulate(response) - response < 2e-3)
     assert result.largest_after < result.largest_before
-
-
-def test_the_model_is_better_than_none_on_what_was_held_out(short):
-    assert short.largest_after < 0.01 * short.largest_before
 
 
 @pytest.mark.parametrize(
@@ -115,23 +112,17 @@ def ramps(*corners):
     return np.interp(np.arange(round(times[-1] / STEP_APPLICATIONS)) * STEP_APPLICATIONS, times, levels)
 
 
-def test_each_begins_at_rest_and_ends_before_its_release():
+def test_applications_begin_at_rest_and_end_before_their_release():
     tank = ramps((0, 0), (1, 0), (2, 3e5), (5, 3e5), (6, 0), (8, 0), (9, 2e5), (11, 2e5), (12, 0), (14, 0))
     first, second = applications(tank, tank, STEP_APPLICATIONS)
     assert first.start * STEP_APPLICATIONS == pytest.approx(1.0, abs=0.1)
     assert 1.9 < first.stop * STEP_APPLICATIONS < 5.1
     assert second.start * STEP_APPLICATIONS == pytest.approx(8.0, abs=0.1)
     assert 8.9 < second.stop * STEP_APPLICATIONS < 11.1
-
-
-def test_a_short_release_between_two_cycles_does_not_divide_a_stop():
-    tank = ramps((0, 0), (1, 3e5), (2, 0), (2.2, 0), (3, 3e5), (5, 3e5))
-    assert len(applications(tank, tank, STEP_APPLICATIONS)) == 1
-
-
-def test_a_record_that_never_rests_is_one_stretch():
-    tank = ramps((0, 2e5), (5, 3e5))
-    assert applications(tank, tank, STEP_APPLICATIONS) == [slice(0, len(tank))]
+    short_release = ramps((0, 0), (1, 3e5), (2, 0), (2.2, 0), (3, 3e5), (5, 3e5))
+    assert len(applications(short_release, short_release, STEP_APPLICATIONS)) == 1
+    no_rest = ramps((0, 2e5), (5, 3e5))
+    assert applications(no_rest, no_rest, STEP_APPLICATIONS) == [slice(0, len(no_rest))]
 
 
 constants = st.floats(0.002, 5.0)

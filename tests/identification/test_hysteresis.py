@@ -44,6 +44,8 @@ def test_without_noise_the_computed_force_is_the_measured_one(pressures, force):
     result = identify_hysteresis(time, pressure, force, acting, transition_time=0.0)
     assert result.largest_error < 0.005
     assert result.rms_error <= result.largest_error
+    squeezing, releasing = result.lines["bc_squeezing"], result.lines["bc_releasing"]
+    assert result.linear.slope == pytest.approx(0.5 * (squeezing.slope + releasing.slope))
 
 
 def test_points_inside_the_loop_do_not_bias_the_lines(pressures, force):
@@ -71,12 +73,6 @@ def test_a_record_without_wsp_gives_the_bc_lines_alone(pressures, force):
     assert set(result.loop_widths) == {"bc"}
 
 
-def test_the_line_without_hysteresis_lies_midway(pressures, force):
-    result = identify_hysteresis(*pressures[:2], force, pressures[2])
-    squeezing, releasing = result.lines["bc_squeezing"], result.lines["bc_releasing"]
-    assert result.linear.slope == pytest.approx(0.5 * (squeezing.slope + releasing.slope))
-
-
 @pytest.mark.parametrize(
     ("spoil", "reason"),
     [
@@ -101,6 +97,8 @@ def test_a_line_without_noise_is_found_exactly(slope, intercept):
     line = robust_line(PRESSURE, slope * PRESSURE + intercept)
     assert line.slope == pytest.approx(slope, rel=1e-6)
     assert line.intercept == pytest.approx(intercept, abs=1e-6 * slope * 4e5 + 1e-6)
+    with pytest.raises(ValueError, match="3 points"):
+        robust_line(PRESSURE[:3], PRESSURE[:3])
 
 
 def test_points_on_one_side_move_it_less_than_least_squares():
@@ -120,23 +118,16 @@ def test_the_confidence_covers_the_truth_about_nineteen_times_in_twenty():
     assert 48 <= covered <= 60
 
 
-def test_too_few_points_are_no_line():
-    with pytest.raises(ValueError, match="3 points"):
-        robust_line(PRESSURE[:3], PRESSURE[:3])
-
-
-def test_runs_end_at_the_extremes():
-    pressure = np.array([0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 4.0])
-    assert runs(pressure, 0.5) == [(0, 3, 1), (3, 5, -1), (5, 8, 1)]
-
-
-def test_a_ripple_smaller_than_the_threshold_does_not_turn_the_pressure():
-    pressure = np.array([0.0, 1.0, 0.8, 2.0, 1.9, 3.0])
-    assert runs(pressure, 0.5) == [(0, 5, 1)]
-
-
-def test_a_constant_pressure_has_no_run():
-    assert runs(np.ones(5), 0.1) == []
+@pytest.mark.parametrize(
+    ("pressure", "threshold", "expected"),
+    {
+        "extremes": ([0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 4.0], 0.5, [(0, 3, 1), (3, 5, -1), (5, 8, 1)]),
+        "small ripple": ([0.0, 1.0, 0.8, 2.0, 1.9, 3.0], 0.5, [(0, 5, 1)]),
+        "constant": ([1.0] * 5, 0.1, []),
+    }.values(),
+)
+def test_runs_end_where_the_pressure_turns_by_more_than_the_threshold(pressure, threshold, expected):
+    assert runs(np.array(pressure), threshold) == expected
 
 
 def test_every_point_that_counts_lies_on_its_line(pressures, force):
@@ -152,13 +143,9 @@ def test_every_point_that_counts_lies_on_its_line(pressures, force):
             assert np.mean(far) < 0.02
 
 
-def test_the_wsp_acts_for_a_while_after_its_last_command():
-    time = np.arange(7.0)
+def test_the_wsp_acts_for_a_while_after_its_last_command_or_in_given_intervals():
     commands = np.array([0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0])
-    acting = wsp_acting_from_commands(time, commands, 2.0)
+    acting = wsp_acting_from_commands(np.arange(7.0), commands, 2.0)
     assert acting.tolist() == [False, False, True, True, True, False, False]
-
-
-def test_the_wsp_acts_in_given_intervals():
     acting = wsp_acting_in_intervals(np.arange(6.0), [(1.0, 2.0), (4.0, 9.0)])
     assert acting.tolist() == [False, True, True, False, True, True]

@@ -20,9 +20,9 @@ def commands():
     return [shlex.split(line[1:])[1:] for line in lines if line.startswith("#   uictest ")]
 
 
-def response(part):
+def model_of(part):
     numerator, denominator = map(tuple, (part.cylinder.numerator, part.cylinder.denominator))
-    return TransferFunction(numerator, denominator, float(part.sampling_time)).response(FREQUENCIES)
+    return TransferFunction(numerator, denominator, float(part.sampling_time))
 
 
 @pytest.mark.slow
@@ -38,7 +38,8 @@ def test_it_is_regenerated(tmp_path, monkeypatch):
         line, other = getattr(identified.hysteresis, phase), getattr(shipped.hysteresis, phase)
         assert line.slope == pytest.approx(other.slope, rel=1e-3)
         assert line.intercept == pytest.approx(other.intercept, rel=1e-2)
-    assert np.abs(response(identified) - response(shipped)).max() < 0.01
+    responses = [model_of(part).response(FREQUENCIES) for part in (identified, shipped)]
+    assert np.abs(np.subtract(*responses)).max() < 0.01
     for name, value in identified.air:
         assert value == pytest.approx(getattr(shipped.air, name), rel=1e-3), name
     assert identified.provenance.keys() == shipped.provenance.keys()
@@ -59,9 +60,7 @@ def test_its_numbers_are_marked_identified_from_the_simulated_caliper():
 
 def test_its_step_response_stays_where_it_has_arrived():
     """Within 0.3 % of the end once it has come so near: the hysteresis keeps the largest pressure."""
-    part = load_compensation("six-inch")
-    numerator, denominator = map(tuple, (part.cylinder.numerator, part.cylinder.denominator))
-    model = TransferFunction(numerator, denominator, float(part.sampling_time))
+    model = model_of(load_compensation("six-inch"))
     response = model.output(np.concatenate([[0.0], np.ones(round(60.0 / model.sampling_time))]))
     off = np.abs(response[1:] - 1.0)
     arrived = int(np.argmax(off <= 3e-3))

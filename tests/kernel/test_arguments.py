@@ -1,11 +1,13 @@
 """What machine code is called with follows from what it takes, and nothing else is handed to it."""
 
+import os
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
-from uictest.rig.kernel.arguments import Length, at, lengths, passed
+from uictest.rig.kernel.arguments import Length, at, block, lengths, passed
+from uictest.rig.kernel.library import WIDTHS, processor, processors, register_width
 
 POINT = np.dtype([("x", "f8"), ("n", "i8")])
 CARS, ROWS = Length("cars"), Length("rows")
@@ -54,11 +56,34 @@ def test_what_lies_otherwise_is_refused(value):
         passed((at("f8", CARS), at("f8", CARS)), (np.zeros(4), value))
 
 
-def test_a_length_that_no_number_gives_is_refused():
-    with pytest.raises(TypeError, match=r"expected \(6,\) contiguous"):
-        passed((at("f8", 2 * CARS),), (np.zeros(7),))
+@pytest.mark.parametrize(
+    ("argument", "shape", "told"),
+    [(at("f8", 2 * CARS), 7, r"expected \(6,\) contiguous"), (at("f8", ROWS, 3), 3, "contiguous")],
+    ids=["a length that no number gives", "too few dimensions"],
+)
+def test_an_array_that_no_length_fits_is_refused(argument, shape, told):
+    with pytest.raises(TypeError, match=told):
+        passed((argument,), (np.zeros(shape),))
 
 
-def test_a_table_with_too_few_dimensions_is_refused():
-    with pytest.raises(TypeError, match="contiguous"):
-        passed((at("f8", ROWS, 3),), (np.zeros(3),))
+LAYOUT = np.dtype((np.record, [("speed", "f8"), ("mode", "i8")]))
+
+
+@pytest.mark.parametrize("width", [2, 4, 8, 16])
+def test_a_field_of_a_block_is_one_row_of_lanes(width):
+    wheelsets = block(LAYOUT, width, 4)
+    assert wheelsets["speed"].shape == (4, width)
+    assert wheelsets["speed"].strides[1] == 8
+    assert wheelsets["mode"].dtype == np.int64
+    assert not wheelsets["speed"].any()
+
+
+def test_a_block_leaves_out_a_field_of_several_numbers_and_begins_at_a_cache_line():
+    table = np.dtype((np.record, [("speed", "f8"), ("slides", "f8", (21,)), ("mode", "i8")]))
+    assert block(table, 8).dtype.names == ("speed", "mode")
+    assert all(block(LAYOUT, 8, count).ctypes.data % 64 == 0 for count in range(1, 20))
+
+
+def test_a_register_of_this_processor_has_one_of_the_widths():
+    assert register_width() == WIDTHS[processor()] in (2, 4, 8)
+    assert processor() == processors()[-1] or "UICTEST_PROCESSOR" in os.environ

@@ -15,7 +15,7 @@ from uictest.rig.kernel.arguments import Length, at
 from uictest.rig.kernel.library import Entry, processor
 
 from . import constructs
-from .of_numbers import exported, function_of
+from .conftest import exported, function_of
 
 OF_NUMBERS = [
     each
@@ -24,6 +24,7 @@ OF_NUMBERS = [
     and each.__module__ == constructs.__name__
     and get_type_hints(each).get("return") in (float, int)
 ]
+assert len(OF_NUMBERS) > 30
 HUGE = 2**61
 """Sums of such numbers have 64 bits."""
 VALUES = {
@@ -70,10 +71,6 @@ def test_numbers_have_the_bits_of_python(library, function, data):
 def test_division_is_that_of_python_at_both_ends(library, m, n):
     for function in (constructs.floor_division, constructs.remainder):
         assert function_of(library, function)(m, n) == function(m, n)
-
-
-def test_there_are_enough_of_them():
-    assert len(OF_NUMBERS) > 30
 
 
 counts = st.lists(st.integers(-9, 9) | st.just(100_000), min_size=4, max_size=4)

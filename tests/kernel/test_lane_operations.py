@@ -202,7 +202,7 @@ def test_a_law_of_the_rig_gives_the_bits_of_plain_python(operations):
     assert same_bits(np.array(found), np.array(plain))
 
 
-def test_one_lane_leaves_the_others_alone(operations):
+def test_one_lane_is_changed_alone_and_a_number_stored_into_a_vector_fills_every_lane(operations):
     for number in range(operations.width):
         records, expected = operations.counted(), operations.counted()
         records["mode"][1, number] = expected["mode"][1, number] = BIG >> 1
@@ -211,16 +211,13 @@ def test_one_lane_leaves_the_others_alone(operations):
         expected["mode"][1, number] = BIG
         expected["load"][1, number] = 7.0 + expected["speed"][1, number]
         assert records.tobytes() == expected.tobytes()
-
-
-def test_a_number_stored_into_a_vector_fills_every_lane(operations):
     records, before = operations.counted(), operations.counted()
     operations.call("fill", records)
     assert np.all(records["load"][0] == 0.5) and np.all(records["load"][2] == 3.0)
     assert np.array_equal(records["load"][1], before["load"][1])
 
 
-def test_every_field_of_a_record_is_copied_to_a_lane(operations):
+def test_what_is_copied_to_a_lane_or_from_it_is_every_field_and_no_more(operations):
     records, given_records = operations.counted(), np.zeros(2, RECORD)
     given_records[0] = (1.5, (1.0, 2.0, 3.0), BIG, -0.0)
     expected = operations.counted()
@@ -228,9 +225,6 @@ def test_every_field_of_a_record_is_copied_to_a_lane(operations):
     for name in FIELDS:
         expected[name][2, 1] = given_records[name][0]
     assert records.tobytes() == expected.tobytes()
-
-
-def test_what_a_lane_has_is_copied_and_the_rest_is_left(operations):
     records, taken = operations.counted(), np.full(2, 7, RECORD)
     records["mode"][2, 1] = BIG
     operations.call("copy_back", records, taken, 1)

@@ -10,7 +10,7 @@ import pytest
 from kernel import alone, build, contents
 from kernel.names import UntranslatableError
 
-from .of_numbers import exported
+from .conftest import exported
 
 HEAD = """
 import decimal

@@ -55,7 +55,7 @@ def wheel(request, tmp_path_factory):
     return request.param, path, folder / "unpacked"
 
 
-def test_a_wheel_has_the_library_of_its_system_only(wheel):
+def test_a_wheel_has_the_library_of_its_system_only_and_pip_takes_that_of_this_machine_alone(wheel):
     name, _, unpacked = wheel
     [library] = (unpacked / "uictest" / "rig" / "kernel").glob("rig-*")
     content = library.read_bytes()
@@ -63,6 +63,10 @@ def test_a_wheel_has_the_library_of_its_system_only(wheel):
     if name.startswith("linux"):
         assert b"GLIBC" not in content
         assert b"libc" not in content
+    name, path, _ = wheel
+    *_, tags = parse_wheel_filename(path.name)
+    assert {(tag.interpreter, tag.abi) for tag in tags} == {("py3", "none")}
+    assert any(tag.platform in set(platform_tags()) for tag in tags) == (name == build.host())
 
 
 def test_the_name_of_the_library_has_the_digest_of_the_sources_beside_it(wheel):
@@ -73,13 +77,6 @@ def test_the_name_of_the_library_has_the_digest_of_the_sources_beside_it(wheel):
     folder, digest = subprocess.check_output(command, cwd=unpacked, env=environment, text=True).split()
     [library] = Path(folder).glob("rig-*")
     assert (unpacked in library.parents, library.name.split("-")[1]) == (True, digest)
-
-
-def test_pip_takes_the_wheel_of_this_machine_alone(wheel):
-    name, path, _ = wheel
-    *_, tags = parse_wheel_filename(path.name)
-    assert {(tag.interpreter, tag.abi) for tag in tags} == {("py3", "none")}
-    assert any(tag.platform in set(platform_tags()) for tag in tags) == (name == build.host())
 
 
 def test_an_unknown_target_is_said_in_a_sentence(tmp_path):

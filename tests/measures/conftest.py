@@ -22,7 +22,7 @@ from uictest.core.record import fields_of
 
 Column = NDArray[np.float64]
 
-_DEFINITION = {
+STANDARD = {
     "sliding_slide": 0.05,
     "sliding_slip": 0.3,
     "locked_speed": 0.1,
@@ -77,7 +77,7 @@ def _samples():
 
 def _measured(samples):
     """Measures of the train and of its wheelsets after all samples but the first, which begins them."""
-    definition = SimpleNamespace(**dict.fromkeys(fields_of(MeasureDefinition), 0.0) | _DEFINITION)
+    definition = SimpleNamespace(**dict.fromkeys(fields_of(MeasureDefinition), 0.0) | STANDARD)
     # Plain numbers, a record's of numpy take three times as long.
     train, *wheelsets = map(_blank, (STOP_MEASURES, *[WHEELSET_MEASURES] * 4))
     first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])

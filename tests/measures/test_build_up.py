@@ -14,10 +14,10 @@ from uictest.core.measures.catalogue.stopping import (
 )
 from uictest.core.measures.train import observe_build_up, observe_train
 
+from .conftest import STANDARD
+
 COMMANDED = 3.8e5
-DEFINITION = SimpleNamespace(
-    rising_share=0.05, developed_share=0.95, deceleration_filter=0.5, moving_speed=2.8, developed_time=2.0
-)
+DEFINITION = SimpleNamespace(**STANDARD)
 
 
 class Braking:
@@ -57,6 +57,10 @@ def observed(stop, interval, begin=0.0):
     return train
 
 
+COLUMNS = {
+    "deceleration_distance_m": deceleration_distance,
+    "developed_deceleration_mps2": developed_deceleration,
+}
 STOP = Braking(v0=33.0, dead=0.4, rise=4.0, full=1.1)
 
 
@@ -91,20 +95,10 @@ def test_a_weaker_brake_keeps_its_share_of_the_developed_deceleration():
     assert mean / reference > 0.82
 
 
-@pytest.mark.parametrize(
-    ("column", "measure"),
-    [
-        ("deceleration_distance_m", deceleration_distance),
-        ("developed_deceleration_mps2", developed_deceleration),
-    ],
-)
-def test_the_column_of_a_stop_that_ended_is_its_measure(column, measure):
+def test_the_column_of_a_stop_that_ended_is_its_measure_which_falls_up_to_then():
     train = observed(STOP, 0.01)
-    assert STOP_COLUMNS[column].read(train, {}) == measure(train).values[0]
-
-
-def test_developed_deceleration_falls_up_to_now():
-    train = observed(STOP, 0.01)
+    for column, measure in COLUMNS.items():
+        assert STOP_COLUMNS[column].read(train, {}) == measure(train).values[0]
     train.stopped = 0.0
     train.end_distance = train.build_up_distance
     assert developed_deceleration(train).values == (float("inf"),)
@@ -144,11 +138,8 @@ def test_brake_that_never_builds_up_or_whose_pressure_is_not_known_has_neither_t
     train = SimpleNamespace()
     begin_train(train, 0.0, 0.0, 20.0, 7e5, COMMANDED, 0.0)
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, 0.94 * COMMANDED)
-    assert (
-        "never reached `developed_share`" in MEASURES["build_up_time"].read(train, (), {}).unavailable_reason
-    )
-    assert "never reached `developed_share`" in deceleration_distance(train).unavailable_reason
-    assert "never reached `developed_share`" in developed_deceleration(train).unavailable_reason
+    values = [MEASURES["build_up_time"].read(train, (), {}), *(read(train) for read in COLUMNS.values())]
+    assert all("never reached `developed_share`" in value.unavailable_reason for value in values)
     train = SimpleNamespace()
     begin_train(train, 0.0, 0.0, 20.0, 7e5, COMMANDED, float("nan"))
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, float("nan"))

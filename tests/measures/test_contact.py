@@ -1,6 +1,6 @@
 """What a wheelset does to its tread and what it makes of the rail, against closed forms."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,16 +10,9 @@ from uictest.core.measures import begin_slides, begin_train, begin_wheelset, clo
 from uictest.core.measures.train import observe_train
 from uictest.core.measures.wheelset import observe_contact, observe_wheelset
 
-Column = np.ndarray
-DEFINITION = SimpleNamespace(
-    sliding_slide=0.05,
-    sliding_slip=0.3,
-    locked_speed=0.1,
-    moving_speed=2.8,
-    deceleration_filter=0.5,
-    developed_time=2.0,
-    reduced_share=0.9,
-)
+from .conftest import STANDARD
+
+DEFINITION = SimpleNamespace(**STANDARD)
 DECELERATION = 0.8
 HIGHEST = 9e3
 """N: largest force of both contacts."""
@@ -32,11 +25,6 @@ class Stop:
 
     interval: float = 0.01
     until: float = 20.0
-    time: Column = field(init=False)
-    speed: Column = field(init=False)
-    slide: Column = field(init=False)
-    force: Column = field(init=False)
-    pressure: Column = field(init=False)
 
     def __post_init__(self):
         self.time = np.arange(0.0, self.until + self.interval / 2, self.interval)
@@ -73,11 +61,13 @@ class Stop:
         return train, wheelsets
 
 
-def test_locked_wheelset_slides_as_far_as_the_train_runs():
+def test_a_locked_wheelset_slides_as_far_as_the_train_runs_and_a_train_that_never_ran_has_no_shares():
     stop = Stop()
     stop.slide[:] = 1.0
     _, wheelsets = stop.observed()
     assert [wheelset.slid_distance for wheelset in wheelsets] == pytest.approx([stop.distance[-1]] * 4)
+    train, _ = Stop(until=0.0).observed()
+    assert np.isnan([train.deceleration_bogie_1, train.deceleration_bogie_2]).all()
 
 
 def test_energy_of_the_contacts_is_the_integral_of_force_and_slip_while_it_slides():
@@ -151,14 +141,7 @@ def test_figures_do_not_depend_on_when_the_samples_fall(interval):
         stop.force[:] = HIGHEST * (1.0 - 0.4 * stop.slide)
         stop.pressure[:] = 3.8e5 * (1.0 - 0.2 * np.sin(stop.time / 3.0) ** 2)
         train, (wheelset, *_) = stop.observed()
-        return [
-            *(train.adhesion_utilisation, train.deceleration_bogie_1),
-            *(wheelset.slid_distance, wheelset.contact_energy),
-        ]
+        ours = train.adhesion_utilisation, train.deceleration_bogie_1
+        return [*ours, wheelset.slid_distance, wheelset.contact_energy]
 
     assert figures(Stop(interval)) == pytest.approx(figures(Stop(0.001)), rel=0.1 * interval)
-
-
-def test_train_that_never_ran_has_no_shares():
-    train, _ = Stop(until=0.0).observed()
-    assert np.isnan([train.deceleration_bogie_1, train.deceleration_bogie_2]).all()

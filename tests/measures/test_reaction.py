@@ -31,22 +31,16 @@ def released(forces, faulty, first=300):
     return wheelset.longest_release
 
 
-def test_the_longest_stretch_without_force_counts():
+def test_the_longest_stretch_without_force_counts_while_the_sensor_is_faulty_and_the_brake_developed():
     forces = [1e3] * 50 + [3e3] * 10 + [1e3] * 120 + [3e3] * 10
     assert released(forces, [1.0] * len(forces)) == pytest.approx(1.2)
-
-
-def test_only_while_the_speed_sensor_is_faulty():
     faulty = [0.0] * 50 + [1.0] * 30 + [0.0] * 40
     assert released([0.0] * len(faulty), faulty) == pytest.approx(0.3)
     assert math.isnan(released([0.0] * 50, [0.0] * 50))
-
-
-def test_not_before_the_brake_is_developed():
     assert released([0.0] * 210, [1.0] * 210, first=0) == pytest.approx(0.1, abs=0.011)
 
 
-def test_the_largest_excess_counts_and_that_of_a_slow_train_does_not():
+def test_the_largest_excess_counts_of_a_train_that_moves_and_a_controller_with_an_estimate():
     measures = train(1)
     for excess in (-3.0, 0.5, 2.0, math.nan, 1.0):
         observe_reference(measures, DEFINITION, measures.previous_speed + excess)
@@ -55,9 +49,6 @@ def test_the_largest_excess_counts_and_that_of_a_slow_train_does_not():
     observe_reference(slow, DEFINITION, 30.0)
     assert math.isnan(slow.reference_excess)
     assert math.isnan(slow.fault_time)
-
-
-def test_a_controller_without_an_estimate_has_no_excess_but_the_fault_is_seen():
     measures = train(5)
     observe_reference(measures, DEFINITION, math.nan)
     assert math.isnan(measures.reference_excess)

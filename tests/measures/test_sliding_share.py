@@ -55,7 +55,7 @@ def slid(speed, first, last, wheelsets, ratio=0.8):
     return wheels
 
 
-def test_half_of_the_wheelsets_at_once_suffice_and_less_never_counts():
+def test_half_of_the_wheelsets_at_once_suffice_and_less_or_one_after_another_never_counts():
     """Sliding 5 of the 20 s that lead to 60 km/h, two wheelsets at once: a quarter."""
     speed = even_stop()
     records = measured(speed, slid(speed, 5.0, 10.0, [1, 3]))
@@ -63,11 +63,7 @@ def test_half_of_the_wheelsets_at_once_suffice_and_less_never_counts():
     assert shares(records).values == (0.0, 0.25, 0.0, 0.25)
     assert share(measured(speed, slid(speed, 0.0, 20.0, [2]))).values == (0.0,)
     assert share(measured(speed, np.full_like(rolling(speed), math.nan))).values == (0.0,)
-
-
-def test_wheelsets_that_slide_one_after_another_do_not_slide_at_once():
-    """Each has its share, and the reading wheelset by wheelset says more than that of half at once."""
-    speed = even_stop()
+    # Each has its share, and the reading wheelset by wheelset says more than that of half at once.
     wheels = slid(speed, 2.0, 8.0, [0])
     wheels[:, 1] = slid(speed, 8.0, 14.0, [1])[:, 1]
     records = measured(speed, wheels)
@@ -113,10 +109,7 @@ def test_a_stop_from_sixty_or_less_has_no_share_whatever_follows(initial):
     assert value.values == ()
     assert value.whatever_follows
     assert "60 km/h" in value.unavailable_reason
-
-
-def test_nor_has_one_that_never_came_down_to_it():
-    speed = even_stop()[:60]
+    speed = even_stop()[:60]  # which never came down to it
     value = share(measured(speed, rolling(speed)))
     assert value.values == ()
     assert not value.whatever_follows

@@ -1,22 +1,18 @@
 """The air of a module as it is computed, against vessels that obey the energy balance of physics.air."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.air import air_changes, amount_gained, enthalpy, pressure_volume_after, travel_after
+from uictest.core.physics.air import amount_gained, pressure_volume_after, travel_after
 
-K = 1.4
-R = 287.05
-CV = R / (K - 1.0)
-WALL = 293.15
-VOLUME = 2e-3
+from .vessel import BARE, VOLUME, WALL, K, R, filled
+
 PRESSURE_PER_MASS = R * WALL / VOLUME
-BARE, WITH_BALLS = 2.6, 12.0
-"""Heat conductances of a bare tank and of one with steel balls, W/K."""
+WITH_BALLS = 12.0
+"""Heat conductance of a tank with steel balls, W/K."""
 SWEPT = 0.0265
 CLOSING, OPENING = 1.43e5, 1.36e5
 
@@ -26,79 +22,40 @@ exchanges = st.floats(0.0, 500.0)
 rises = st.floats(-1e4, 1e4)
 
 
-@dataclass
-class Vessel:
-    """Air at first at 1 bar in a vessel of relative volume ``volume`` with a wall of h A ``conductance``."""
-
-    conductance: float
-    step: float
-    volume: float = 1.0
-    pressure: float = 1e5
-    temperature: float = WALL
-
-    def __post_init__(self):
-        self.mass = self.pressure * self.volume / PRESSURE_PER_MASS
-
-    def gain(self, mass, growth=0.0):
-        """Gain air of the wall's temperature (kg), or lose some, and grow in relative volume."""
-        carried = enthalpy(mass, WALL, self.temperature, K * CV)
-        self.mass += mass
-        self.volume += growth
-        warming, rise = air_changes(
-            self.pressure,
-            self.temperature,
-            self.mass,
-            mass,
-            carried,
-            self.volume * VOLUME,
-            growth * VOLUME,
-            WALL,
-            self.conductance * self.step,
-            R,
-            CV,
-        )
-        self.temperature += warming
-        self.pressure += rise
-
-    @property
-    def amount(self):
-        return self.mass * PRESSURE_PER_MASS
-
-    @property
-    def exchange(self):
-        """Its W in the equations of the module."""
-        return (K - 1.0) * self.conductance * self.step * WALL / VOLUME
-
-
-def flows(vessel):
+def flows(vessel, step):
     """Five seconds of filling from 5 bar, holding and venting to 1 bar, 0.1 s each, at random; in kg."""
     for valve in np.random.default_rng(4).choice([5e5, 1e5, None], 50):
-        for _ in range(round(0.1 / vessel.step)):
-            yield 0.0 if valve is None else 3e-8 * vessel.step * (valve - vessel.pressure)
+        for _ in range(round(0.1 / step)):
+            yield 0.0 if valve is None else 3e-8 * step * (valve - vessel.pressure)
+
+
+def exchange_in(conductance, step):
+    """Heat that the equations of the module exchange in a step, W in their notation."""
+    return (K - 1.0) * conductance * step * WALL / VOLUME
 
 
 def error_of_the_amount(conductance, step):
     """Largest error of the air that a tank's pressure tells, over the air that flowed."""
-    tank = Vessel(conductance, step)
-    amount, errors = tank.amount, []
-    for mass in flows(tank):
+    tank, exchange = filled(1e5), exchange_in(conductance, step)
+    amount, errors = tank.mass * PRESSURE_PER_MASS, []
+    for mass in flows(tank, step):
         before = tank.pressure
-        tank.gain(mass)
-        amount += amount_gained(before, tank.pressure - before, amount, tank.exchange, K)
-        errors.append(abs(amount - tank.amount))
-    return max(errors) / tank.amount
+        tank.step(mass, exchange=conductance * step)
+        amount += amount_gained(before, tank.pressure - before, amount, exchange, K)
+        errors.append(abs(amount - tank.mass * PRESSURE_PER_MASS))
+    return max(errors) / (tank.mass * PRESSURE_PER_MASS)
 
 
 def error_of_the_pressure(conductance, step):
     """Largest error of the pressure of a module whose flows are known and whose volume goes to and fro."""
-    module = Vessel(conductance, step, volume=1.0 - SWEPT)
-    pressure, amount, errors = module.pressure, module.amount, []
-    for n, mass in enumerate(flows(module)):
+    module, exchange = filled(1e5, volume=(1.0 - SWEPT) * VOLUME), exchange_in(conductance, step)
+    pressure, amount, errors = module.pressure, module.mass * PRESSURE_PER_MASS, []
+    for n, mass in enumerate(flows(module, step)):
         growth = SWEPT * step * math.cos(n * step)
-        volume, gained = module.volume, mass * PRESSURE_PER_MASS
-        module.gain(mass, growth)
-        after = pressure_volume_after(pressure, volume, growth, amount, gained, module.exchange, K)
-        pressure, amount = after / module.volume, amount + gained
+        volume, gained = module.volume / VOLUME, mass * PRESSURE_PER_MASS
+        module.step(mass, growth=growth * VOLUME, exchange=conductance * step)
+        after = pressure_volume_after(pressure, volume, growth, amount, gained, exchange, K)
+        pressure, amount = after / (module.volume / VOLUME), amount + gained
         errors.append(abs(pressure / module.pressure - 1.0))
     return max(errors)
 

@@ -45,10 +45,15 @@ def test_a_layer_and_falling_friction_agree_with_the_open_program(index, adhesio
     assert locomotive_creep.program(10.0)[index] == pytest.approx(adhesion, rel=0.006)
 
 
-def test_full_slip_transmits_the_friction_of_the_wheels_slip():
+def test_full_slip_transmits_the_friction_of_the_wheels_slip_which_scales_with_load():
     contact = HalfSpaceContact(6e-3, 5e-3, MODULUS, 0.28)
     force = contact.force(0.5, 20.0, LOAD, lambda slip: 0.1 + 0.2 * np.exp(-slip / 5.0))
     assert force / LOAD == pytest.approx(0.1 + 0.2 * math.exp(-2.0), rel=1e-3)
+    double, half = (
+        contact.force(0.001, 10.0, 2.0 * LOAD, constant(0.15)),
+        contact.force(0.001, 10.0, LOAD, constant(0.3)),
+    )
+    assert double == pytest.approx(half, rel=1e-9)
 
 
 @pytest.mark.parametrize("creepage", [0.0005, 0.002])
@@ -59,10 +64,3 @@ def test_finer_elements_change_little(creepage):
     ]
     assert forces[1] == pytest.approx(forces[2], rel=0.01)
     assert abs(forces[1] - forces[2]) < abs(forces[0] - forces[2]) < 0.04 * forces[2]
-
-
-def test_force_is_a_friction_that_scales_with_load():
-    contact = HalfSpaceContact(6e-3, 5e-3, MODULUS, 0.28)
-    assert contact.force(0.001, 10.0, 2.0 * LOAD, constant(0.15)) == pytest.approx(
-        contact.force(0.001, 10.0, LOAD, constant(0.3)), rel=1e-9
-    )

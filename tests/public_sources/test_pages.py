@@ -24,16 +24,13 @@ def test_every_comparison_says_what_was_fitted_and_none_of_it_is_judged(validati
         assert each.predicted.count + len(fitted) == len(each.findings.comparisons)
 
 
-def test_sources_that_miss_come_first(validations):
+def test_sources_that_miss_come_first_and_what_misses_stands_first_on_a_page(validations):
     overview = next(text for path, text in files(validations).items() if path.stem == "README")
     rows = [line.split(" | ") for line in overview.splitlines() if line.startswith("| [")]
     assert len(rows) == len(validations)
     shares = [int(missed.strip("*")) / int(predicted) for _, _, predicted, missed, *_ in rows]
     assert shares == sorted(shares, reverse=True)
     assert shares[0] > 0.0
-
-
-def test_what_misses_stands_first_on_a_page(validations):
     for path, text in files(validations).items():
         rows = [line.rsplit(" | ", 2)[1:] for line in text.splitlines() if line.startswith("| ")][1:]
         missed = [status == "predicted" and result == "misses |" for status, result in rows]

@@ -1,12 +1,16 @@
-"""Results, runs and recordings to report on, with whatever is to be different."""
+"""Results, runs and recordings to report on, with whatever is to be different, and files held together."""
+
+import csv
 
 import numpy as np
+import openpyxl
+import pytest
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.plans.scenario import expectation_of
-from uictest.report import RunContent, RunManifest
+from uictest.report import RunContent, RunManifest, csv_cell
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 """A text with terminal codes, formula, markup, XML, null, direction override and workflow command."""
@@ -14,36 +18,18 @@ HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 
 def make_result(**changes):
     """A stop at 120 km/h on a dry rail that passed."""
-    content = {
-        "id": "dry-120[command=90]",
-        "scenario": "scenarios/dry/120.yaml",
-        "parameters": {"brake.command": "90 %"},
-        "expect": "pass",
-        "outcome": "pass",
-        "criteria": (make_verdict(),),
-        "measures": _FIGURES,
-        "wheelsets": tuple(map(_wheelset, range(1, 5))),
-        "duration": 0.25,
-    }
-    content |= changes
+    content = {"id": "dry-120[command=90]", "scenario": "scenarios/dry/120.yaml"}
+    content |= {"parameters": {"brake.command": "90 %"}, "expect": "pass", "outcome": "pass"}
+    content |= {"criteria": (make_verdict(),), "measures": _FIGURES, "duration": 0.25}
+    content |= {"wheelsets": tuple(map(_wheelset, range(1, 5)))} | changes
     return CaseResult(**content | {"expect": expectation_of(content["expect"])})
 
 
 def make_verdict(**changes):
     """A braking distance inside its limits."""
-    content = {
-        "id": "braking-distance",
-        "layer": "validity",
-        "value": 465.25,
-        "unit": "m",
-        "lower": 440.0,
-        "upper": 490.0,
-        "margin": 24.75,
-        "status": "pass",
-        "reason": "",
-        "definition": {"low_speed_cutoff": "30 km/h"},
-    }
-    return Verdict(**(content | changes))
+    numbers = {"value": 465.25, "unit": "m", "lower": 440.0, "upper": 490.0, "margin": 24.75}
+    content = {"id": "braking-distance", "layer": "validity", **numbers, "status": "pass", "reason": ""}
+    return Verdict(**(content | {"definition": {"low_speed_cutoff": "30 km/h"}} | changes))
 
 
 def make_content(*results, **changes):
@@ -76,13 +62,10 @@ def make_recording(samples=3401, **metadata):
 
 
 def _wheelset(n):
-    own = {
-        "maximum_slide": 0.02 * n,
-        "valve_actuations": n,
-        "maximum_clamping_force_n": 25e3,
-        "air_vented_nl": 1.5,
-    }
-    return dict.fromkeys(WHEELSET_COLUMNS, 0.0) | own
+    own = {"maximum_slide": 0.02 * n, "valve_actuations": n}
+    return (
+        dict.fromkeys(WHEELSET_COLUMNS, 0.0) | own | {"maximum_clamping_force_n": 25e3, "air_vented_nl": 1.5}
+    )
 
 
 _FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
@@ -98,3 +81,29 @@ _FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
     "air_residual": 1e-12,
     "air_energy_residual": 1e-12,
 }
+
+
+def assert_as_csv(folder):
+    """Hold the sheets of the workbook of a folder to its CSV files: the same tables, cell by cell."""
+    files = {path.stem: path for path in folder.rglob("*.csv")}
+    book = openpyxl.load_workbook(folder / "report.xlsx")
+    assert sorted(book.sheetnames) == sorted(files)
+    for name, path in files.items():
+        with path.open(newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+        cells = [[cell.value for cell in row] for row in book[name].iter_rows()]
+        assert [csv_cell(each) for each in cells[0]] == header
+        for row, sheet in zip(rows, cells[1:], strict=True):
+            assert len(row) == len(sheet)
+            for text, cell in zip(row, sheet, strict=True):
+                assert_same(text, cell)
+
+
+def assert_same(text, cell):
+    """Hold a cell of a workbook to that of a CSV file: a number is one, a text the same text."""
+    if isinstance(cell, bool):
+        assert text == str(cell).lower()
+    elif isinstance(cell, int | float):
+        assert float(text) == pytest.approx(cell, rel=1e-15)
+    else:
+        assert text == csv_cell(cell or "")

@@ -70,6 +70,8 @@ def _document(text):
     }
     index = {"value": 0.5, "low": 0.4, "high": 0.6}
     flips = [{"low": text, "high": "0.11", "met_at_low": False}]
+    rates = [{"value": value, "cases": 2, "met": met, "outcomes": each} for value, met, each in counts]
+    cells = axes | {"met": [[1, 1], [0, 1]], "cases": [[1, 1], [1, 1]]}
     return {
         "schema": "uictest/result/2",
         "kind": "sweep",
@@ -78,16 +80,17 @@ def _document(text):
         "cases": 4,
         "met": 3,
         "outcomes": outcomes,
+        "rates": {f"brake.{text}": rates},
+        "base": {},
+        "controllers": [],
+        "parts": {},
+        "worst": [],
+        "subjects": {},
+        "notes": [text],
         "missed": [{"id": f"lost[{text}]", "outcome": "invalid", "reason": text}],
-        "rates": {
-            f"brake.{text}": [
-                {"value": value, "cases": 2, "met": met, "outcomes": each} for value, met, each in counts
-            ]
-        },
         "maps": [
-            {"measure": "met", **axes, "means": [[1.0, 1.0], [0.0, 1.0]]} | _cells([[1, 1], [0, 1]]),
-            {"measure": "braking_distance_m", **axes, "means": [[1.5, 2.5], [None, 3.5]]}
-            | _cells([[1, 1], [0, 1]]),
+            {"measure": "met", **cells, "means": [[1.0, 1.0], [0.0, 1.0]]},
+            {"measure": "braking_distance_m", **cells, "means": [[1.5, 2.5], [None, 3.5]]},
         ],
         "sensitivities": [
             {"measure": "met", "circumstances": {text: text}, "key": text, "first": index, "total": index}
@@ -103,14 +106,4 @@ def _document(text):
             {"parameter": f"brake.{text}", "values": ["80 %", "90 %"], "measure": text, "unit": text}
             | {"cases": [2, 1], "minimum": [1.0, 4.0], "mean": [2.0, 4.0], "maximum": [3.0, 4.0]}
         ],
-        "base": {},
-        "controllers": [],
-        "parts": {},
-        "worst": [],
-        "subjects": {},
-        "notes": [text],
     }
-
-
-def _cells(met):
-    return {"met": met, "cases": [[1, 1], [1, 1]]}

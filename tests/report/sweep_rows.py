@@ -57,7 +57,7 @@ def drawn_rows(cases, failing=()):
     ]
 
 
-DRAWN = {
+INTERVALS = {
     "rail.friction": [
         {"low": round(0.1 + 0.01 * k, 2), "high": round(0.11 + 0.01 * k, 2), "unit": ""} for k in range(10)
     ],

@@ -19,7 +19,7 @@ from uictest.report.traces.trace import trace_of
 
 from .builders import make_recording, make_result
 from .chromium import COMPARED, READY, choose, emulate, resize, run, unfold, wait, written
-from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
+from .sweep_rows import INTERVALS, drawn_rows, sweep_result, write_rows
 
 _CHECK = """
 const done = arguments[arguments.length - 1];
@@ -81,8 +81,8 @@ def _sample(folder):
     write_rows(folder, drawn_rows(60, failing=(7, 8, 9)))
     index = {"value": 0.5, "low": 0.4, "high": 0.6}
     parts = {"measure": "met", "circumstances": {}, "first": index, "total": index}
-    sensitivities = [{**parts, "key": key} for key in DRAWN]
-    result = sweep_result(DRAWN, 60, logarithmic=["gain"], sensitivities=sensitivities)
+    sensitivities = [{**parts, "key": key} for key in INTERVALS]
+    result = sweep_result(INTERVALS, 60, logarithmic=["gain"], sensitivities=sensitivities)
     yield sweep_page_html(SweepContent(folder, result, {}))
 
 
@@ -102,15 +102,10 @@ def _paired_stops(folder):
 
 def _repeated(distance, controller):
     result = make_result(id="slip", parameters={"controller": controller})
-    stops = tuple(
-        RepeatedStop(
-            seed, "pass", "", (), {**result.measures, "braking_distance_m": distance + seed}, result.wheelsets
-        )
-        for seed in (1, 2, 3)
-    )
-    return dataclasses.replace(
-        result, id=f"slip[controller={controller}]", noise_key="00c0ffee", repeats=Repeats("all", stops)
-    )
+    measures = [{**result.measures, "braking_distance_m": distance + seed} for seed in (1, 2, 3)]
+    stops = [RepeatedStop(k, "pass", "", (), own, result.wheelsets) for k, own in enumerate(measures, 1)]
+    changes = {"noise_key": "00c0ffee", "repeats": Repeats("all", tuple(stops))}
+    return dataclasses.replace(result, id=f"slip[controller={controller}]", **changes)
 
 
 def _index(folder):
@@ -146,22 +141,28 @@ def _studies(folder):
         yield page.read_text("utf-8")
 
 
-appearances = pytest.mark.parametrize(("scheme", "width"), [("light", 1400), ("dark", 390)])
+APPEARANCES = [("light", 1400), ("dark", 390)]
 
 
-@appearances
-@pytest.mark.parametrize("pages", [_log, _sample, _paired_stops, _index, _studies])
-def test_a_page_with_every_fold_open(browser, tmp_path, pages, scheme, width):
+def _sweep(folder, make_sweep):
+    """The page of a sweep whose worst case is drawn."""
+    worst = make_result(id="study[a]", outcome="fail")
+    yield sweep_page_html(make_sweep((worst,), "x", traces={worst.id: trace_of(make_recording())}))
+
+
+@pytest.mark.parametrize(("scheme", "width"), APPEARANCES)
+@pytest.mark.parametrize("pages", [_log, _sample, _sweep, _paired_stops, _index, _studies])
+def test_a_page_with_every_fold_open(browser, tmp_path, make_sweep, pages, scheme, width):
     resize(browser, width)
     emulate(browser, scheme)
-    for page in pages(tmp_path):
+    for page in pages(tmp_path, *([make_sweep] if pages is _sweep else [])):
         browser.get(written(tmp_path, page).as_uri())
         unfold(browser)
         wait(browser, _ALL_PLOTTED)
         _assert_fit_for_all(browser)
 
 
-@appearances
+@pytest.mark.parametrize(("scheme", "width"), APPEARANCES)
 def test_the_page_of_a_run(browser, page, scheme, width):
     """With two cases compared, and with every fold open."""
     resize(browser, width)
@@ -174,18 +175,7 @@ def test_the_page_of_a_run(browser, page, scheme, width):
     _assert_fit_for_all(browser)
 
 
-@appearances
-def test_the_page_of_a_sweep(browser, tmp_path, make_sweep, scheme, width):
-    worst = make_result(id="study[a]", outcome="fail")
-    sweep = make_sweep((worst,), "x", traces={worst.id: trace_of(make_recording())})
-    resize(browser, width)
-    emulate(browser, scheme)
-    browser.get(written(tmp_path, sweep_page_html(sweep)).as_uri())
-    wait(browser, _ALL_PLOTTED)
-    _assert_fit_for_all(browser)
-
-
-@appearances
+@pytest.mark.parametrize(("scheme", "width"), APPEARANCES)
 def test_the_page_of_a_comparison(browser, tmp_path, scheme, width):
     """With a band, a channel that only one side has, other rates, and over distance."""
     first, second = make_recording(), make_recording(1701)

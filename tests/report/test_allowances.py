@@ -84,7 +84,7 @@ def test_an_allowance_that_is_used_is_never_green_and_what_is_missed_beyond_it_i
     assert suite.testcases[0].status == ("passed" if met else "failure")
 
 
-def test_an_allowance_that_is_used_is_listed_in_lines_tables_testcases_and_annotations():
+def test_an_allowance_that_is_used_is_listed_in_every_report_and_three_in_the_headline():
     assert line_word("allowed fail") == "allowed-fail"
     assert case_line(USED).startswith("allowed-fail low-80 outcome=fail expect=passorfail(locked-wheels) ")
     (suite,) = run_suites(make_content(USED))
@@ -96,9 +96,6 @@ def test_an_allowance_that_is_used_is_listed_in_lines_tables_testcases_and_annot
     assert notice.startswith(
         "::notice file=scenarios/dry/120.yaml,title=allowed fail low-80::fail: locked-wheels"
     )
-
-
-def test_the_headline_names_three_allowances_and_counts_the_others():
     many = [replace(USED, id=f"low-{number}") for number in range(5)]
     assert tally(many).endswith("; allowed: low-2: locked-wheels 62 s, upper limit 1 s; 2 more allowed")
     assert tally(many).count("allowed: ") == 3

@@ -100,28 +100,15 @@ def added(key, written, mark="user"):
     return Parameter(key, written, "", written, mark, "", differs=True)
 
 
-BRAKE = EffectivePart(
-    *("scenario.brake", "brake", "", None),
-    (
-        added("brake.dynamic.force", "40 kN"),
-        added("brake.dynamic.wheelsets.0", "1"),
-        added("brake.dynamic.wheelsets.1", "2"),
-        added("brake.dynamic.response_time", "0.3 s", "default"),
-        added("brake.command.0.at", "0 s"),
-        added("brake.command.0.value", "60 %"),
-        added("brake.command.1.at", "8 s"),
-        added("brake.command.1.position", "emergency"),
-        Parameter("brake.position", "G", "", "G", "user", "", True, "R", "R"),
-    ),
-)
-FAULT = {
-    "at": "90 km/h",
-    "until": "20 s",
-    "wheelset": "1",
-    "part": "speed-sensor",
-    "kind": "factor",
-    "value": "90 %",
-}
+ADDED = {"dynamic.force": "40 kN", "dynamic.wheelsets.0": "1", "dynamic.wheelsets.1": "2"}
+ADDED |= {"command.0.at": "0 s", "command.0.value": "60 %"}
+ADDED |= {"command.1.at": "8 s", "command.1.position": "emergency"}
+BRAKE = [added(f"brake.{key}", text) for key, text in ADDED.items()]
+BRAKE.append(added("brake.dynamic.response_time", "0.3 s", "default"))
+POSITION = Parameter("brake.position", "G", "", "G", "user", "", True, "R", "R")
+BRAKE = EffectivePart("scenario.brake", "brake", "", None, (*BRAKE, POSITION))
+FAULT = {"at": "90 km/h", "until": "20 s", "wheelset": "1", "part": "speed-sensor", "kind": "factor"}
+FAULT |= {"value": "90 %"}
 FAULTS = EffectivePart(
     "scenario", "", "", None, tuple(added(f"faults.0.{key}", text) for key, text in FAULT.items())
 )
@@ -179,36 +166,24 @@ def test_parts_are_listed_once_for_all_cases_alike_with_the_version_that_a_progr
     ]
     assert changes_line(told[0]) == ["changed parameters: controller wsp (version 1.2, library wsp.so)"]
     assert changes_line(two) == []
-
-
-def test_the_manifest_names_the_parts_with_their_digests():
-    content = run_manifest([], None, {}, 2, [{"controller": CONTROLLER}, {"controller": PLAIN}])
+    content = run_manifest([], None, {}, 2, [one.parts, two.parts])
     assert content.parts == {CONTROLLER.id: f"threshold, changed: {CHANGE[11:]}", PLAIN.id: "threshold"}
 
 
-def test_controllers_are_named_once_and_one_that_never_acted_is_marked():
+def test_controllers_are_named_once_and_the_largest_slide_says_above_which_speed_it_counts():
     own, idle = ({"controller": PLAIN, "scenario.rig": part} for part in (rig(), rig(wsp="bypassed")))
     told = make_result(parts={"controller": LIBRARY}, controller_version="1.2", controller_contract=2)
     results = [make_result(parts=own), make_result(parts=idle), told, make_result(parts={})]
     built_in = "threshold (built into uictest 0.2.0)"
     assert controllers_text(results, "0.2.0") == f"{built_in}, wsp (version 1.2, contract 2)"
+    # One that never acted is marked.
     assert controllers_text([make_result(parts=idle)], "0.2.0") == f"{built_in}, bypassed"
-
-
-def test_the_largest_slide_says_above_which_speed_it_counts():
-    def measured(written):
-        moving = Parameter("measures.moving_speed", 2.78, "m/s", written, "chosen")
-        return make_result(
-            parts={"measures": EffectivePart("measures", "measures", "standard", "standard", (moving,))}
-        )
-
-    assert slide_speed([measured("10 km/h")] * 2) == "10 km/h"
-    assert (
-        slide_speed([measured("10 km/h"), measured("5 km/h")])
-        == slide_speed([make_result()])
-        == "moving_speed"
-    )
-    titles = [column.title for column, _ in cases_table(make_content(measured("10 km/h"))).for_people]
+    speeds = [Parameter("measures.moving_speed", 1.0, "m/s", f"{n} km/h", "chosen") for n in (10, 5)]
+    of_speeds = [EffectivePart("measures", "measures", "standard", "standard", (speed,)) for speed in speeds]
+    ten, five = (make_result(parts={"measures": part}) for part in of_speeds)
+    assert slide_speed([ten] * 2) == "10 km/h"
+    assert slide_speed([ten, five]) == slide_speed([make_result()]) == "moving_speed"
+    titles = [column.title for column, _ in cases_table(make_content(ten)).for_people]
     assert any("10 km/h" in title for title in titles)
 
 
@@ -229,13 +204,11 @@ def test_a_car_of_a_train_has_its_place_and_the_forces_in_its_couplers():
     ]
     texts = {column.heading: texts for column, texts in cases_table(make_content(leading)).for_people}
     assert texts["train"] == ["car 1 of 3; coupler behind: pull 17.3 kN, push 0.2 kN"]
-
-
-def test_without_trains_no_table_has_their_columns():
-    table = cases_table(make_content(make_result()))
+    # Without trains no table has their columns.
+    table = cases_table(make_content(alone))
     assert not {column.key for column in table.columns} & set(TRAIN_COLUMNS)
     assert all(column.heading != "train" for column, _ in table.for_people)
-    assert "train" not in result_document([make_result()])["cases"][0]
+    assert "train" not in result_document([alone])["cases"][0]
 
 
 SPEED = Deviation("initial_speed", (160 / 3.6, 160 / 3.6), (80 / 3.6, 120 / 3.6), "m/s")
@@ -262,18 +235,8 @@ def beyond(*deviations):
 
 
 def unrecorded(reason, layer="requirement"):
-    return make_result(
-        criteria=(
-            make_verdict(
-                id="energy",
-                layer=layer,
-                value=None,
-                status="not_applicable",
-                reason=reason,
-                lacks_data=reason == LACKING,
-            ),
-        )
-    )
+    lacking = {"value": None, "status": "not_applicable", "reason": reason, "lacks_data": reason == LACKING}
+    return make_result(criteria=(make_verdict(id="energy", layer=layer, **lacking),))
 
 
 LACKING = "not recorded: wheel_load_1 .. wheel_load_4"

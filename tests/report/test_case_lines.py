@@ -23,7 +23,7 @@ from uictest.report.case_lines import (
 from uictest.report.difference import BaselineComparison, Difference
 
 from .builders import HOSTILE, make_content, make_result, make_verdict
-from .series.made_up import MISSED, make_series
+from .made_up_series import MISSED, make_series
 from .test_robustness import make_repeated
 from .test_verdict_sentences import READ
 
@@ -57,7 +57,7 @@ def test_a_verdict_that_turns_says_by_which_value_of_what_and_to_what(verdict, t
     assert turns_text(verdict) == text
 
 
-def test_what_turns_comes_before_narrow_margins_and_what_failed_is_not_close():
+def test_what_turns_comes_before_narrow_margins_what_failed_is_not_close_and_many_are_counted():
     narrow, narrower = make_verdict(value=445.0, margin=5.0), make_verdict(value=441.0, margin=1.0)
     failed = make_verdict(id="missed", value=430.0, margin=-10.0, status="fail")
     results = [
@@ -70,11 +70,7 @@ def test_what_turns_comes_before_narrow_margins_and_what_failed_is_not_close():
     calls = close_calls(results)
     assert [(call.of, call.kind) for call in calls] == [("c", "turns"), ("b", "narrow"), ("a", "narrow")]
     assert str(calls[1]) == "b: braking-distance 441 m, 440 .. 490 m (+0.204 %)"
-
-
-def test_many_are_counted():
-    narrow = make_verdict(value=441.0, margin=1.0)
-    lines = close_lines([make_result(id=f"case-{n}", criteria=(narrow,)) for n in range(MOST_CLOSE + 3)])
+    lines = close_lines([make_result(id=f"case-{n}", criteria=(narrower,)) for n in range(MOST_CLOSE + 3)])
     assert len(lines.sentences) == MOST_CLOSE + 1
     assert lines.sentences[-1] == "3 more, in the tables of cases and series"
 

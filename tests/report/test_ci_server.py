@@ -18,7 +18,7 @@ from uictest.report.ci_server import (
 from uictest.report.difference import BaselineComparison, Difference
 
 from .builders import HOSTILE, make_content, make_result, make_verdict
-from .series.made_up import MISSED, make_series
+from .made_up_series import MISSED, make_series
 
 
 def suites(*results, named=False, **changes):
@@ -37,23 +37,26 @@ BASELINE = BaselineComparison(
 )
 
 
-def test_a_testcase_is_named_after_file_and_id_and_says_the_two_statements():
+def test_a_testcase_is_named_after_file_and_id_missed_ones_first_and_a_run_without_cases_has_an_empty_suite():
     (testcase,) = told(make_result())
     assert (testcase.class_name, testcase.name) == ("scenarios.dry.120", "dry-120[command=90]")
     assert (testcase.status, testcase.duration) == ("passed", 0.25)
     assert testcase.lines == ["test validity: valid; requirements: not judged"]
+    good, bad = make_result(id="a"), make_result(id="b", outcome="fail")
+    assert [testcase.name for testcase in told(good, bad)] == ["b", "a"]
+    (suite,) = suites()
+    assert (suite.name, suite.testcases, suite.duration) == ("uictest", [], 0)
+    assert [suite.name for suite in suites(series=[make_series()])] == ["uictest series: acceptance"]
 
 
 def test_a_missed_case_has_value_and_limit_in_its_message_and_everything_in_its_text():
     (testcase,) = told(make_result(outcome="invalid", criteria=(BROKEN,), reason="braking-distance: ..."))
-    assert (testcase.status, testcase.lines) == (
-        "failure",
-        [
-            "invalid: braking-distance 500 m, limits 440 .. 490 m. Expected: pass",
-            "test validity: not valid (braking-distance); requirements: not judged",
-            "braking-distance (validity) fail: 500 m misses 440 .. 490 m",
-        ],
-    )
+    assert testcase.status == "failure"
+    assert testcase.lines == [
+        "invalid: braking-distance 500 m, limits 440 .. 490 m. Expected: pass",
+        "test validity: not valid (braking-distance); requirements: not judged",
+        "braking-distance (validity) fail: 500 m misses 440 .. 490 m",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -73,14 +76,6 @@ def test_a_missed_case_has_value_and_limit_in_its_message_and_everything_in_its_
 def test_the_status_of_a_testcase_is_that_of_its_expectation(expect, outcome, status, message):
     (testcase,) = told(make_result(expect=expect, outcome=outcome, criteria=()))
     assert (testcase.status, [*testcase.lines, ""][0]) == (status, message)
-
-
-def test_what_is_not_as_expected_comes_first_and_a_run_without_cases_has_an_empty_suite():
-    good, bad = make_result(id="a"), make_result(id="b", outcome="fail")
-    assert [testcase.name for testcase in told(good, bad)] == ["b", "a"]
-    (suite,) = suites()
-    assert (suite.name, suite.testcases, suite.duration) == ("uictest", [], 0)
-    assert [suite.name for suite in suites(series=[make_series()])] == ["uictest series: acceptance"]
 
 
 def test_what_differs_from_the_baseline_fails_and_what_is_missing_has_a_testcase():
@@ -124,44 +119,24 @@ def controller(name, **facts):
 
 def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_is():
     python = {"python": "wsp.py", "sha256": "1" * 64, "version": "2.1"}
-    parts = {
-        "a": controller("Wsp", **python),
-        "b": controller("threshold", algorithm="threshold"),
-        "c": controller("tcp://rig:5025", connect="tcp://rig:5025"),
-        "d": controller("Wsp", **python),
-    }
-    results = [make_result(id=name, parts={"controller": part}) for name, part in parts.items()]
-    shown = [
-        (
-            suite.name,
-            [testcase.name for testcase in suite.testcases],
-            {k: v for k, v in suite.properties.items() if v},
-        )
-        for suite in suites(*results)
-    ]
+    own = [make_result(id=name, parts={"controller": controller("Wsp", **python)}) for name in ("a", "d")]
+    built_in = make_result(id="b", parts={"controller": controller("threshold", algorithm="threshold")})
+    at = "tcp://rig:5025"
+    remote = make_result(id="c", parts={"controller": controller(at, connect=at)})
+    of_own, of_built_in, of_remote = suites(own[0], built_in, remote, own[1])
     facts = {"kind": "python", "source": "wsp.py", "version": "2.1", "sha256": "1" * 64}
-    at_socket = {"kind": "connect", "source": "tcp://rig:5025"}
-    assert shown == [
-        (
-            "uictest: Wsp",
-            ["a", "d"],
-            {"controller": "Wsp"} | {f"controller.{key}": text for key, text in facts.items()},
-        ),
-        ("uictest", ["b"], {"controller": "threshold", "controller.version": "uictest 0.1.0"}),
-        (
-            "uictest: tcp://rig:5025",
-            ["c"],
-            {"controller": "tcp://rig:5025"} | {f"controller.{key}": text for key, text in at_socket.items()},
-        ),
-    ]
-
-
-def test_versions_that_a_controller_tells_are_joined_and_a_failure_names_the_controller():
+    stated = {"controller": "Wsp"} | {f"controller.{key}": text for key, text in facts.items()}
+    of_socket = {"controller": at, "controller.kind": "connect", "controller.source": at}
+    for suite, name, cases, properties in (
+        (of_own, "uictest: Wsp", ["a", "d"], stated),
+        (of_built_in, "uictest", ["b"], {"controller": "threshold", "controller.version": "uictest 0.1.0"}),
+        (of_remote, f"uictest: {at}", ["c"], of_socket),
+    ):
+        assert (suite.name, [testcase.name for testcase in suite.testcases]) == (name, cases)
+        assert {key: text for key, text in suite.properties.items() if text} == properties
     part = {"controller": controller("wsp", library="wsp.so")}
-    results = [
-        make_result(id=told or "none", parts=part, controller_version=told) for told in ("1.2", "1.3", "")
-    ]
-    (suite,) = suites(*results)
+    versions = ("1.2", "1.3", "")
+    (suite,) = suites(*(make_result(id=f"x{own}", parts=part, controller_version=own) for own in versions))
     assert suite.properties["controller.version"] == "1.2, 1.3"
     (failed,) = told(make_result(outcome="fail", parts=part, controller_version="1.2"))
     assert "controller: wsp (version 1.2)" in failed.lines
@@ -222,7 +197,7 @@ def test_an_annotation_carries_its_level_and_the_place_in_the_file(told, command
     assert annotation(*told) == command
 
 
-def test_only_cases_and_series_that_are_not_met_are_annotated():
+def test_only_what_is_not_met_is_annotated_and_a_hostile_name_cannot_start_a_command_of_its_own():
     assert list(case_annotations(make_result())) == list(series_annotations(make_series())) == []
     assert list(case_annotations(make_result(outcome="fail", criteria=(), reason="locked"))) == [
         "::error file=scenarios/dry/120.yaml,title=fail dry-120[command=90]::fail. Expected: pass%0Alocked"
@@ -231,9 +206,6 @@ def test_only_cases_and_series_that_are_not_met_are_annotated():
     assert line.startswith("::error file=tests/acceptance.series.yaml,title=fail acceptance::fail: k-wet")
     (differs,) = case_annotations(make_result(id="a"), [DIFFERS])
     assert differs.startswith("::error file=scenarios/dry/120.yaml,title=differs a::pass (as expected)")
-
-
-def test_a_hostile_name_cannot_start_a_command_of_its_own():
     (line,) = case_annotations(make_result(id=HOSTILE, scenario=HOSTILE, outcome="error", reason=HOSTILE))
     assert line.startswith("::error file=")
     assert not set("\n\r\x00\x1b\u202e") & set(line)

@@ -38,7 +38,7 @@ def _at_cursor(browser):
     return by_head(browser, ".at-cursor tbody tr")
 
 
-def test_the_difference_stands_beneath_each_channel_on_its_axis(overlay):
+def test_the_difference_stands_beneath_each_channel_on_its_axis_and_on_paper_a_drawing_that_fits(overlay):
     traces = run(
         overlay,
         "return document.querySelector('.panels-plot').plots"
@@ -52,6 +52,14 @@ def test_the_difference_stands_beneath_each_channel_on_its_axis(overlay):
         overlay, "return document.querySelector('.panels-plot').plots[1].marks.map((m) => [m.kind, m.y])"
     )
     assert marks == [["tolerance", 10], ["point", pytest.approx(9.0, abs=1e-3)]]
+    heights = run(
+        overlay,
+        "return [...document.querySelectorAll('.laid-over svg.panels')]"
+        ".map((each) => each.viewBox.baseVal.height)",
+    )
+    assert len(heights) == 3
+    # Of 960 across: less than a third of a page of A4.
+    assert max(heights) < 960 * 267 / 182 / 3
 
 
 def test_one_cursor_reads_both_sides_their_difference_and_its_share(overlay):
@@ -64,11 +72,14 @@ def test_one_cursor_reads_both_sides_their_difference_and_its_share(overlay):
         "Slide of wheelset 1": ["%", "0.000", "0.000", "0.000", NOTHING],
         "Valve command of wheelset 1": ["1", "0.0000", "0.0000", "0.0000", NOTHING],
     }
-
-
-def test_behind_its_end_a_side_has_no_value(overlay):
-    overlay.find_element("css selector", ".laid-over input[type=range]").send_keys("\ue010")  # end: 34 s
+    # Behind its end, at 34 s, a side has no value.
+    slider.send_keys("\ue010")
     assert _at_cursor(overlay)["Speed"] == ["km/h", "0.00", NOTHING, NOTHING, NOTHING]
+    # A largest difference leads to its instant.
+    run(overlay, "[...document.querySelectorAll('.laid-over .moment')].at(-1).click()")
+    found = wait(overlay, "return document.querySelector('.slider output').textContent")
+    button = texts(overlay, ".laid-over .moment")[-1]
+    assert button.removeprefix("at ") in (found, found.replace(".00", ""))
 
 
 def test_over_distance_both_sides_stand_at_the_same_place(overlay):
@@ -84,13 +95,6 @@ def test_over_distance_both_sides_stand_at_the_same_place(overlay):
     assert b > a
 
 
-def test_a_largest_difference_leads_to_its_instant(overlay):
-    run(overlay, "[...document.querySelectorAll('.laid-over .moment')].at(-1).click()")
-    found = wait(overlay, "return document.querySelector('.slider output').textContent")
-    button = texts(overlay, ".laid-over .moment")[-1]
-    assert button.removeprefix("at ") in (found, found.replace(".00", ""))
-
-
 def test_the_points_of_a_channel_and_its_difference_come_as_csv(overlay):
     comments, rows = saved(overlay, ".laid-over .tables button")
     assert "Sampled every 10 ms in A and every 20 ms in B." in comments[1]
@@ -102,14 +106,3 @@ def test_the_points_of_a_channel_and_its_difference_come_as_csv(overlay):
     for time, apart in by_line["B - A"].items():
         assert apart == pytest.approx(9.0, abs=0.01)
         assert by_line["B"][time] == pytest.approx(max(120 - 3.6 * time, 0.0) + 9.0, abs=0.01)
-
-
-def test_on_paper_each_channel_is_a_drawing_that_fits(overlay):
-    heights = run(
-        overlay,
-        "return [...document.querySelectorAll('.laid-over svg.panels')]"
-        ".map((each) => each.viewBox.baseVal.height)",
-    )
-    assert len(heights) == 3
-    # Of 960 across: less than a third of a page of A4.
-    assert max(heights) < 960 * 267 / 182 / 3

@@ -13,7 +13,7 @@ from uictest.report.requirements import (
 )
 
 from .builders import make_result, make_verdict
-from .series.made_up import make_series
+from .made_up_series import make_series
 
 
 def only(*results, series=()):
@@ -48,34 +48,32 @@ OWN = {"id": "own", "layer": "requirement", "requirements": ("BR-1",)}
 
 
 @pytest.mark.parametrize(
-    ("own", "validity", "word"),
+    ("own", "validity", "in_valid_test", "word"),
     [
-        ("pass", "pass", "pass"),
-        ("fail", "pass", "fail"),
-        ("inconclusive", "pass", "inconclusive"),
-        ("not_applicable", "pass", "not applicable"),
-        ("not_applicable", "fail", "not applicable"),
-        ("pass", "fail", "invalid"),
-        ("fail", "fail", "fail"),
-        ("pass", "inconclusive", "inconclusive"),
-        ("fail", "inconclusive", "fail"),
-        ("pass", "not_applicable", "pass"),
+        # A criterion is met only by a stop that counts as a test; what is missed is missed in any.
+        ("pass", "pass", False, "pass"),
+        ("fail", "pass", False, "fail"),
+        ("inconclusive", "pass", False, "inconclusive"),
+        ("not_applicable", "pass", False, "not applicable"),
+        ("not_applicable", "fail", False, "not applicable"),
+        ("pass", "fail", False, "invalid"),
+        ("fail", "fail", False, "fail"),
+        ("pass", "inconclusive", False, "inconclusive"),
+        ("fail", "inconclusive", False, "fail"),
+        ("pass", "not_applicable", False, "pass"),
+        # What stands in a valid test alone is missed in one alone.
+        ("fail", "pass", True, "fail"),
+        ("fail", "not_applicable", True, "fail"),
+        ("fail", "fail", True, "invalid"),
+        ("fail", "inconclusive", True, "inconclusive"),
     ],
 )
-def test_a_requirement_of_a_criterion_is_met_only_by_a_stop_that_counts_as_a_test(own, validity, word):
-    verdicts = (make_verdict(status=validity), make_verdict(**OWN, status=own))
-    (evidence,) = only(make_result(criteria=verdicts)).evidence
+def test_a_requirement_of_a_criterion_follows_it_and_the_validity_of_the_stop(
+    own, validity, in_valid_test, word
+):
+    verdict = make_verdict(**OWN, status=own, in_valid_test=in_valid_test)
+    (evidence,) = only(make_result(criteria=(make_verdict(status=validity), verdict))).evidence
     assert (evidence.word, evidence.criteria) == (word, ("own",))
-
-
-@pytest.mark.parametrize(
-    ("validity", "word"),
-    [("pass", "fail"), ("not_applicable", "fail"), ("fail", "invalid"), ("inconclusive", "inconclusive")],
-)
-def test_what_stands_in_a_valid_test_alone_is_missed_in_one_alone(validity, word):
-    own = make_verdict(**OWN, status="fail", in_valid_test=True)
-    (evidence,) = only(make_result(criteria=(make_verdict(status=validity), own))).evidence
-    assert evidence.word == word
 
 
 @pytest.mark.parametrize("layer", ["rig", "record"])
@@ -111,11 +109,6 @@ def test_a_requirement_of_a_criterion_of_a_series_follows_its_verdict(status, ou
     assert requirement.evidence == (Evidence("series", "acceptance", word, ("k-wet",)),)
 
 
-def test_a_case_that_names_the_requirement_of_its_criterion_counts_once_and_as_a_whole():
-    result = make_result(outcome="fail", requirements=("BR-1",), criteria=(make_verdict(**OWN),))
-    assert [(evidence.word, evidence.criteria) for evidence in only(result).evidence] == [("fail", ())]
-
-
 def test_two_criteria_of_a_requirement_must_both_pass_whatever_becomes_of_others():
     verdicts = (make_verdict(**OWN), make_verdict(**(OWN | {"id": "too"}), status="fail"))
     (evidence,) = only(make_result(criteria=verdicts)).evidence
@@ -124,6 +117,13 @@ def test_two_criteria_of_a_requirement_must_both_pass_whatever_becomes_of_others
     assert only(make_result(outcome="fail", criteria=(make_verdict(**OWN), other))).status == "met"
     of_validity = make_verdict(status="fail", requirements=("BR-1",))
     assert only(make_result(outcome="invalid", criteria=(of_validity,))).evidence[0].word == "fail"
+    # A case that names the requirement of its criterion counts once, and as a whole.
+    result = make_result(outcome="fail", requirements=("BR-1",), criteria=(make_verdict(**OWN),))
+    assert [(evidence.word, evidence.criteria) for evidence in only(result).evidence] == [("fail", ())]
+    # A testcase stands for its own requirements, and those of criteria that apply.
+    not_applicable = make_verdict(id="x", status="not_applicable", requirements=("BR-9",))
+    verdicts = (make_verdict(requirements=("BR-2", "BR-1")), not_applicable)
+    assert requirements_of(make_result(requirements=("BR-1",), criteria=verdicts)) == ("BR-1", "BR-2")
 
 
 @pytest.mark.parametrize("status", ["pass", "fail"])
@@ -145,12 +145,6 @@ def test_a_requirement_is_met_where_all_that_test_it_meet_it():
     assert [evidence.id for evidence in requirement.tested] == ["a", "c"]
     assert [evidence.id for evidence in requirement.not_met] == ["c"]
     assert requirement.counts == (3, 0)
-
-
-def test_a_testcase_stands_for_its_own_requirements_and_those_of_criteria_that_apply():
-    not_applicable = make_verdict(id="x", status="not_applicable", requirements=("BR-9",))
-    verdicts = (make_verdict(requirements=("BR-2", "BR-1")), not_applicable)
-    assert requirements_of(make_result(requirements=("BR-1",), criteria=verdicts)) == ("BR-1", "BR-2")
 
 
 def test_tables_tell_a_case_and_a_series_of_the_same_id_apart_and_those_not_met_come_first():

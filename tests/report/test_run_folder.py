@@ -5,6 +5,7 @@ from datetime import UTC, datetime, timedelta, timezone
 
 import pytest
 
+from uictest import report, runs
 from uictest.core.document import Table
 from uictest.core.envelope import MANIFEST
 from uictest.core.recording import read_parquet
@@ -23,7 +24,7 @@ from uictest.report.run_folder import (
 )
 
 from .builders import make_content, make_recording, make_result
-from .series.made_up import make_series
+from .made_up_series import make_series
 
 
 def write(folder, content):
@@ -70,10 +71,12 @@ def test_a_run_comes_back_from_its_folder(tmp_path):
 
 
 def test_recordings_and_logs_are_found_under_the_id_of_their_case(tmp_path):
+    for case_id in ("slip-120[friction=0.10,command=90]", "my.train run (2)", "..a"):
+        assert recording_path(tmp_path, case_id) == tmp_path / "recordings" / f"{case_id}.parquet"
     result = make_result()
     write(tmp_path, make_content(result))
     path = write_recording(tmp_path, result.id, make_recording())
-    assert path == tmp_path / "recordings" / f"{result.id}.parquet" == recording_path(tmp_path, result.id)
+    assert path == recording_path(tmp_path, result.id)
     assert read_parquet(path).metadata["case"] == "dry-120"
     assert read_run(tmp_path).traces == {}
     assert list(with_recorded_traces(read_run(tmp_path), tmp_path).traces) == [result.id]
@@ -145,35 +148,26 @@ def test_what_is_damaged_is_named(tmp_path, place, value, reason):
 
 @pytest.mark.parametrize("case_id", NO_NAMES)
 def test_nothing_is_written_or_looked_for_under_an_id_that_leads_elsewhere(tmp_path, case_id):
-    with pytest.raises(ValueError, match="is not the name of a file"):
-        recording_path(tmp_path, case_id)
-    with pytest.raises(ValueError, match="is not the name of a file"):
-        write_recording(tmp_path, case_id, make_recording(2))
-    with pytest.raises(ValueError, match="is not the name of a file"):
-        write_controller_log(tmp_path, case_id, "")
+    for use in (
+        lambda: recording_path(tmp_path, case_id),
+        lambda: write_recording(tmp_path, case_id, make_recording(2)),
+        lambda: write_controller_log(tmp_path, case_id, ""),
+    ):
+        with pytest.raises(ValueError, match="is not the name of a file"):
+            use()
 
 
-@pytest.mark.parametrize("case_id", ["slip-120[friction=0.10,command=90]", "my.train run (2)", "..a"])
-def test_ids_of_cases_and_names_of_recorded_files_are_names(tmp_path, case_id):
-    assert recording_path(tmp_path, case_id) == tmp_path / "recordings" / f"{case_id}.parquet"
-
-
-def test_a_run_is_named_after_its_start_in_utc_and_its_manifest():
+def test_a_run_is_named_after_its_start_in_utc_and_the_digest_of_its_manifest():
     started = datetime(2026, 3, 1, 1, 30, 5, tzinfo=timezone(timedelta(hours=9)))
-    name = run_name(started, RunManifest(seed=1))
-    assert name == f"20260228T163005Z-{manifest_digest(RunManifest(seed=1))}"
-    assert name == run_name(started.astimezone(UTC), RunManifest(seed=1))
-    assert len(manifest_digest(RunManifest())) == 8
-
-
-@pytest.mark.parametrize(
-    ("changes", "differs"),
-    [({"inputs": {"b": "2", "a": "1"}}, False), ({"inputs": {"a": "1"}}, True), ({"seed": 2}, True)],
-)
-def test_the_digest_of_a_manifest_follows_its_content_and_no_order(changes, differs):
     first = RunManifest(inputs={"a": "1", "b": "2"})
-    other = RunManifest(**{"inputs": first.inputs} | changes)
-    assert (manifest_digest(first) != manifest_digest(other)) == differs
+    name = run_name(started, first)
+    assert name == f"20260228T163005Z-{manifest_digest(first)}"
+    assert name == run_name(started.astimezone(UTC), first)
+    assert len(manifest_digest(first)) == 8
+    # The digest follows the content, and no order.
+    assert manifest_digest(RunManifest(inputs={"b": "2", "a": "1"})) == manifest_digest(first)
+    for other in (RunManifest(inputs={"a": "1"}), RunManifest(inputs=first.inputs, seed=2)):
+        assert manifest_digest(other) != manifest_digest(first)
 
 
 def test_a_manifest_names_versions_and_no_folder_of_the_machine(tmp_path, monkeypatch):
@@ -197,3 +191,10 @@ def test_what_stops_of_a_log_show_together_is_tables_whose_first_columns_stay_lo
     lines, *tables = campaign.sections
     assert (lines.sentences, len(tables)) == (("All alike.",), 1)
     assert isinstance(tables[0], Table)
+
+
+def test_a_series_is_counted_apart_from_cases(tmp_path):
+    content = report.RunContent("", [make_result(id="acceptance", outcome="fail")], series=[make_series()])
+    runs.publish_run(content, {}, tmp_path, ("html",))
+    index = (tmp_path / "index.html").read_text("utf-8")
+    assert "1 case: 1 fail; 1 series: 1 pass" in index

@@ -1,11 +1,13 @@
-"""The tables of a run for programs and people, and its summary."""
+"""The tables of a run for programs and people, its summary, and which of its cases are drawn."""
 
 from dataclasses import replace
 
 import pytest
 
 from uictest.core.document import Lines
+from uictest.judging.evaluation import Sensitivity, VerdictInterval
 from uictest.report import CaseDescription, publication_of_run, publish
+from uictest.report.content import DRAWN, MOST_DRAWN, drawn_cases, worst_first
 from uictest.report.difference import BaselineComparison, Difference
 from uictest.report.formats.text import table_lines
 from uictest.report.run_publication import (
@@ -17,13 +19,12 @@ from uictest.report.run_publication import (
     wheelsets_table,
 )
 
-from .builders import HOSTILE, make_content, make_result, make_verdict
-from .series.made_up import make_series
+from .builders import HOSTILE, assert_as_csv, make_content, make_result, make_verdict
+from .made_up_series import make_series
 from .test_case_conditions import CHANGE, CONTROLLER
 from .test_case_lines import STEPS, turning
 from .test_robustness import make_repeated
 from .test_verdict_sentences import READ
-from .workbooks import assert_as_csv
 
 CRASHED = make_result(
     id="crashed", outcome="error", reason="ValueError: x", measures=None, wheelsets=(), criteria=()
@@ -41,17 +42,14 @@ def texts(*results, **changes):
     return {column.title.replace("\n", " "): texts for column, texts in table.for_people}
 
 
-def test_a_case_holds_parameters_as_written_and_figures_exactly():
-    record = row(parameters={"brake.command": "90 %", "expect": "fail"})
+def test_a_case_holds_parameters_as_written_figures_exactly_and_names_what_it_was_run_with():
+    named = {"test_case": "TC-1", "requirements": ("BR-10", "BR-9"), "parts": {"controller": CONTROLLER}}
+    record = row(parameters={"brake.command": "90 %", "expect": "fail"}, **named)
     assert (record["id"], record["parameters.brake.command"]) == ("dry-120[command=90]", "90 %")
     assert (record["energy_residual"], record["initial_adhesion_g"]) == (1e-8, None)
     # A parameter that is called like a column does not hide it.
     assert (record["parameters.expect"], record["expect"]) == ("fail", "pass")
     assert (record["outcome"], record["met"], record["test_validity"]) == ("pass", True, "valid")
-
-
-def test_a_case_names_its_controller_changes_test_case_and_requirements():
-    record = row(parts={"controller": CONTROLLER}, test_case="TC-1", requirements=("BR-10", "BR-9"))
     assert (record["controller"], record["controller_version"]) == ("threshold", "uictest 0.1.0")
     assert (record["changed_parameters"], record["test_case"]) == (CHANGE, "TC-1")
     assert record["requirements"] == "BR-10; BR-9"
@@ -60,19 +58,12 @@ def test_a_case_names_its_controller_changes_test_case_and_requirements():
 def test_a_case_that_crashed_is_a_row_without_figures_and_cases_share_one_header():
     results = [make_result(parameters={"a.b": "1"}), replace(CRASHED, parameters={"c": "2"})]
     first, crashed = cases_table(make_content(*results)).records
-    assert [(record["parameters.a.b"], record["parameters.c"]) for record in (first, crashed)] == [
-        ("1", None),
-        (None, "2"),
-    ]
+    values = [(record["parameters.a.b"], record["parameters.c"]) for record in (first, crashed)]
+    assert values == [("1", None), (None, "2")]
     assert (crashed["outcome"], crashed["met"], crashed["braking_distance_m"]) == ("error", False, None)
     assert len(wheelsets_table([CRASHED]).rows) == len(criteria_table([CRASHED]).rows) == 0
-
-
-def test_wheelsets_are_numbered_from_the_leading_end():
-    records = wheelsets_table([make_result()]).records
-    assert [(record["wheelset"], record["valve_actuations"]) for record in records] == [
-        (n, n) for n in (1, 2, 3, 4)
-    ]
+    vents = [(record["wheelset"], record["valve_actuations"]) for record in wheelsets_table(results).records]
+    assert vents == [(n, n) for n in (1, 2, 3, 4)]
 
 
 def test_every_criterion_is_a_row_with_its_definition_readings_and_requirements():
@@ -111,20 +102,16 @@ def test_figures_give_way_to_the_names_of_cases(width):
     assert all(any(heading in line for line in (lines[0], last)) for heading in headings)
 
 
-def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last():
+def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last_and_is_added_where_there_is_none():
     locked = make_verdict(measure="locked_time", status="fail", unit="s", value=9.0)
     missed = cases_table(make_content(make_result(outcome="fail", criteria=(locked,))))
-    head, *_, last = table_lines(missed, 50)
-    assert "locked" in head
-    assert "distance" in last
-    head, *_, last = table_lines(cases_table(make_content(make_result())), 50)
-    assert "locked" not in head
-    assert "locked" in last
-
-
-def test_a_missed_criterion_of_a_measure_that_is_no_column_has_a_column_of_its_own():
-    locked = make_verdict(id="locked-wheels", measure="longest_lock", status="fail", unit="s", value=109.66)
-    results = make_result(id="a", outcome="fail", criteria=(locked,)), make_result(id="b", criteria=())
+    assert "locked" in next(iter(table_lines(missed, 50)))
+    for table, left_out in ((missed, "distance"), (cases_table(make_content(make_result())), "locked")):
+        head, *_, last = table_lines(table, 50)
+        assert left_out not in head
+        assert left_out in last
+    lock = make_verdict(id="locked-wheels", measure="longest_lock", status="fail", unit="s", value=109.66)
+    results = make_result(id="a", outcome="fail", criteria=(lock,)), make_result(id="b", criteria=())
     assert texts(*results)["locked-wheels s"] == ["109.7", "-"]
     assert "locked-wheels s" not in texts(results[1])
 
@@ -152,13 +139,8 @@ def test_a_summary_says_what_decides_first_and_cases_not_met_first():
     )
     baseline = BaselineComparison("base", "00", 5, 1, {"a": [OUT]}, not_run=("c",))
     close = make_result(id="c", criteria=(turning(90.0, *STEPS), READ), requirements=("BR-1",))
-    content = make_content(
-        *(make_result(id="a"), missed, close),
-        baseline=baseline,
-        series=[make_series()],
-        passed_over=["stop 3: no brake"],
-        complete=False,
-    )
+    more = {"baseline": baseline, "series": [make_series()], "passed_over": ["stop 3: no brake"]}
+    content = make_content(make_result(id="a"), missed, close, **more, complete=False)
     document = run_summary(content)
     assert document.title == (
         "uictest: 3 cases: 1 pass, 1 fail, 1 different from the baseline; 1 not as expected; 1 series: 1 pass"
@@ -173,26 +155,15 @@ def test_a_summary_says_what_decides_first_and_cases_not_met_first():
         if (section.sentences if isinstance(section, Lines) else section.rows)
     ]
     assert shown == [
-        "acceptance: k-wet 0.86957, lower limit 0.8 (+8.7 %)",
-        "acceptance",
+        *("acceptance: k-wet 0.86957, lower limit 0.8 (+8.7 %)", "acceptance"),
         "acceptance: Valid stops from 120 km/h: dry 2 of 2, wet 5 of 6 (83.33 %, 80 % needed)",
         "acceptance",
         "5 quantities compared with the baseline base: 1 out of tolerance, 1 different within tolerance",
-        "a",
-        "BR-1",
-        "b[x]",
-        "stop 3: no brake",
-        "c",
+        *("a", "BR-1", "b[x]", "stop 3: no brake", "c"),
     ]
-
-
-def test_the_table_of_a_summary_explains_what_is_not_as_expected():
-    missed = make_result(
-        id="b", outcome="fail", criteria=(), reason="locked", parts={"controller": CONTROLLER}
-    )
     table = explained_cases_table(make_content(make_result(id="a"), missed))
     columns = {column.heading: shown for column, shown in table.for_people}
-    assert (columns["case"], columns["verdict"]) == (["b", "a"], ["fail", "pass"])
+    assert (columns["case"], columns["verdict"]) == (["b[x]", "a"], ["fail", "pass"])
     assert columns["changed parameters"] == [CHANGE, ""]
     assert columns["why"] == ["fail. Expected: pass; locked", ""]
 
@@ -218,3 +189,41 @@ def test_the_workbook_of_a_run_holds_what_its_csv_files_hold(text, tmp_path):
     content = make_content(result, CRASHED, name=text, series=[make_series(id=text)])
     publish(publication_of_run(content), ["csv", "xlsx"], tmp_path)
     assert_as_csv(tmp_path)
+
+
+def test_what_is_not_met_comes_first_requirements_before_tests_then_narrow_margins_and_verdicts_that_flip():
+    intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
+    flips = Sensitivity("d", "s", 0.0, 1.0, intervals)
+    requirement = make_verdict(status="fail", margin=-0.1, layer="requirement")
+    validity = make_verdict(status="fail", margin=-90.0, layer="validity")
+    results = [
+        make_result(id="wide", criteria=(make_verdict(margin=200.0),)),
+        make_result(id="narrow", criteria=(make_verdict(margin=2.0),)),
+        make_result(id="flips", criteria=(make_verdict(margin=200.0, sensitivity=(flips,)),)),
+        make_result(id="nothing", criteria=()),
+        make_result(id="expected", outcome="fail", expect="fail"),
+        make_result(id="no-test", outcome="invalid", criteria=(validity,)),
+        make_result(id="missed", outcome="fail", criteria=(requirement,)),
+    ]
+    order = ["missed", "no-test", "expected", "flips", "narrow", "wide", "nothing"]
+    assert [result.id for result in worst_first(results)] == order
+
+
+def test_a_page_draws_from_every_scenario_in_turn():
+    """A hundred narrow cases of one scenario leave room for the only one of another."""
+    margins = [(make_verdict(margin=1.0 + n),) for n in range(100)]
+    narrow = [make_result(id=f"a{n}", scenario="a.yaml", criteria=own) for n, own in enumerate(margins)]
+    wide = make_result(id="b", scenario="b.yaml", criteria=(make_verdict(margin=200.0),))
+    missed = [make_result(id=f"c{n}", scenario="c.yaml", outcome="fail") for n in range(2)]
+    drawn = [result.id for result in drawn_cases([*narrow, wide, *missed])]
+    assert len(drawn) == DRAWN
+    assert drawn[:5] == ["c0", "c1", "a0", "b", "a1"]
+
+
+def test_chosen_cases_are_drawn_before_all_others_more_if_more_are_chosen_and_not_without_end():
+    results = [make_result(id=f"case-{n}", outcome="fail" if n < 50 else "pass") for n in range(100)]
+    drawn = drawn_cases(results, {"case-98", "case-99"})
+    assert [result.id for result in drawn[:2]] == ["case-98", "case-99"]
+    assert len(drawn) == DRAWN
+    assert len(drawn_cases(results, {f"case-{n}" for n in range(30)})) == 30
+    assert len(drawn_cases(results, {result.id for result in results})) == MOST_DRAWN

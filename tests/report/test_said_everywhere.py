@@ -14,7 +14,7 @@ from uictest.report.page.series_view import series_badge, series_tone
 from uictest.report.traces.trace import stop_extremes, trace_of, with_band
 
 from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
-from .series.made_up import MISSED, make_series
+from .made_up_series import MISSED, make_series
 from .test_allowances import ALLOWED, BEYOND, NOT_USED, USED
 from .test_case_conditions import BAND, CHANGE, CONTROLLER, FAULTS, PLAIN, SLIP, added
 from .test_requirements import naming
@@ -93,13 +93,23 @@ def test_the_headline_of_a_page_has_the_worst_tone(results, tone):
     assert f'<h1 class="tally-{tone}">' in page_html(make_content(*results))
 
 
-def test_the_page_shows_a_change_beside_the_verdict_and_all_parameters_once():
+def test_the_page_shows_a_change_beside_the_verdict_all_parts_once_and_counts_those_it_leaves_out():
     results = [make_result(id=name, parts={"controller": CONTROLLER}) for name in ("one", "two")]
     page = page_html(make_content(*results))
     assert page.count(f"changed: {CHANGE}") == 2
     assert page.count(f'id="{CONTROLLER.id}"') == 1
     assert page.count("controller.hold_limit") == 1
     assert "A surrogate." in page
+    assert "not shown here" not in page
+    parts = [replace(PLAIN, name=f"own-{k}") for k in range(102)]
+    page = page_html(make_content(*(make_result(id=each.name, parts={"controller": each}) for each in parts)))
+    assert sum(f'id="{each.id}"' in page for each in parts) == 100
+    assert "2 more parts not shown here: results.json has all of them." in page
+    cars = [EffectivePart("vehicle", "vehicle", name, name, ()) for name in ("wagon", "coach", "wagon")]
+    parts = [{"controller": PLAIN, "vehicle": car} for car in cars]
+    results = [make_result(id=str(k), parts=own) for k, own in enumerate(parts)]
+    page = page_html(make_content(*results))
+    assert "vehicle: <strong>wagon, coach</strong>" in page
 
 
 def test_a_page_tells_sections_of_scenarios_apart_and_keeps_those_of_a_kind_together():
@@ -112,24 +122,6 @@ def test_a_page_tells_sections_of_scenarios_apart_and_keeps_those_of_a_kind_toge
     content = make_content(*(make_result(id=each.id, parts={"rail": each}) for each in (first, second)))
     headings = [line for line in page_html(content).splitlines() if "<summary>scenario.rail" in line]
     assert ["0.03" in line for line in headings] == [True, False]
-
-
-def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_names_every_vehicle_once():
-    parts = [replace(PLAIN, name=f"own-{k}") for k in range(102)]
-    page = page_html(make_content(*(make_result(id=each.name, parts={"controller": each}) for each in parts)))
-    assert sum(f'id="{each.id}"' in page for each in parts) == 100
-    assert "2 more parts not shown here: results.json has all of them." in page
-    cars = [EffectivePart("vehicle", "vehicle", name, name, ()) for name in ("wagon", "coach", "wagon")]
-    few = page_html(
-        make_content(
-            *(
-                make_result(id=str(k), parts={"controller": PLAIN, "vehicle": car})
-                for k, car in enumerate(cars)
-            )
-        )
-    )
-    assert "not shown here" not in few
-    assert "vehicle: <strong>wagon, coach</strong>" in few
 
 
 def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(make_sweep):
@@ -158,9 +150,7 @@ def test_the_page_has_the_stops_of_each_repeated_case():
     assert "<title>seed 2: 500</title>" in page
     assert "sensitive to definitions or seed: braking-distance" in page
     assert "<script>" not in page.split("</h3>")[-1].split('<script type="application/json"')[0]
-
-
-def test_repeated_cases_without_a_recording_show_their_stops_and_a_page_lists_so_many():
+    # Those without a recording are listed, and so many stops of one.
     page = page_html(make_content(make_repeated("ppf"), make_result(id="single")))
     assert "<title>seed 2: 500</title>" in page.split("Repeated cases that are not drawn")[1]
     assert "Repeated cases that are not drawn" not in page_html(make_content(make_result()))
@@ -182,17 +172,12 @@ def test_the_key_says_what_the_band_behind_the_drawn_stop_spans():
         assert not any(words in page for words in ("lowest and highest of", 'class="band', '{"band":'))
 
 
-def test_the_page_draws_every_stop_of_a_series_and_marks_those_that_do_not_count():
-    page = page_html(make_content(series=[make_series()]))
-    assert page.count('<path class="dot"') == 7
-    assert page.count('<path class="dot uncounted"') == 1
-    badges = [(series_badge(result), series_tone(result)) for result in (UNCERTAIN, make_series())]
-    assert badges == [("pass, not certain", "odd"), ("pass", "good")]
-
-
-def test_the_page_tells_a_case_and_a_series_of_the_same_id_apart():
+def test_the_page_draws_every_stop_of_a_series_and_tells_it_from_a_case_of_the_same_id():
     case = make_result(id="acceptance", requirements=("BR-9",), outcome="fail")
     page = page_html(make_content(case, series=[naming(requirements=("BR-9",), test_case="WSP-TC-7")]))
-    assert "1 case, 1 series" in page
-    assert '<a href="#series-acceptance">series acceptance</a>' in page
-    assert "WSP-TC-7: BR-9" in page
+    assert page.count('<path class="dot"') == 7
+    assert page.count('<path class="dot uncounted"') == 1
+    for said in ("1 case, 1 series", '<a href="#series-acceptance">series acceptance</a>', "WSP-TC-7: BR-9"):
+        assert said in page
+    badges = [(series_badge(result), series_tone(result)) for result in (UNCERTAIN, make_series())]
+    assert badges == [("pass, not certain", "odd"), ("pass", "good")]

@@ -23,7 +23,7 @@ from uictest.report.series_report import (
 )
 
 from .builders import HOSTILE, make_content
-from .series.made_up import MISSED, make_series
+from .made_up_series import MISSED, make_series
 
 RESULT = make_series()
 (K_WET,) = RESULT.criteria
@@ -83,7 +83,7 @@ def test_a_verdict_has_value_limit_margin_and_confidence_on_one_line():
     )
 
 
-def test_stops_that_count_and_those_that_do_not_are_said_with_the_first_reasons():
+def test_stops_that_count_and_those_that_do_not_are_said_in_any_width_with_the_first_reasons():
     assert stops_sentences(RESULT) == [
         "Valid stops from 120 km/h: dry 2 of 2, wet 5 of 6 (83.33 %, 80 % needed)",
         "1 stop invalid, not counted: energy-balance: 3 % misses < 0.1 %",
@@ -92,6 +92,15 @@ def test_stops_that_count_and_those_that_do_not_are_said_with_the_first_reasons(
     assert list(not_counted_sentences(make_series(not_counted=reasons))) == [
         "5 stops invalid, not counted: reason 0; reason 1; reason 2; 2 more reasons"
     ]
+    for width in (60, 100, 200):
+        text = " ".join(" ".join(series_lines_of_terminal([RESULT], width)).split())
+        for said in ("pass acceptance", "dry 2 of 2, wet 5 of 6", "1 stop invalid, not counted"):
+            assert said in text
+    # A summary without series has no section of them, and many lines are counted.
+    assert series_sections([]) == []
+    _, lines, _ = series_sections([RESULT] * 200)
+    assert len(lines.sentences) == 301
+    assert lines.sentences[-1] == "100 more lines in tables/series-stops.csv and results.json"
 
 
 def test_tables_have_a_row_per_measure_criterion_and_stop():
@@ -124,21 +133,6 @@ def test_people_see_a_verdict_that_is_not_certain_and_series_side_by_side():
     value = compared["k-wet"][0]
     assert value.startswith("0.8696 (0.8")
     assert compared["k-wet"][1:] == [f"{value} fail", f"{value}, not certain", "-"]
-
-
-@pytest.mark.parametrize("width", [60, 100, 200])
-def test_a_terminal_shows_the_same_in_its_width(width):
-    text = " ".join(" ".join(series_lines_of_terminal([RESULT], width)).split())
-    assert all(
-        said in text for said in ("pass acceptance", "dry 2 of 2, wet 5 of 6", "1 stop invalid, not counted")
-    )
-
-
-def test_a_summary_without_series_has_no_section_of_them_and_many_lines_are_counted():
-    assert series_sections([]) == []
-    _, lines, _ = series_sections([RESULT] * 200)
-    assert len(lines.sentences) == 301
-    assert lines.sentences[-1] == "100 more lines in tables/series-stops.csv and results.json"
 
 
 def test_hostile_texts_stay_one_line():

@@ -130,9 +130,19 @@ def test_the_ring_follows_its_wheelset_where_they_stand_side_by_side(stop):
 
 @pytest.mark.parametrize("width", [400, 1000, 1600])
 def test_nothing_lies_over_anything_else_however_wide_the_window(browser, stop_page, width):
-    """Neither the values of the cursor over the loops, nor labels above the panels over each other."""
+    """Neither the values of the cursor over the loops, nor labels above the panels over each other.
+
+    On a phone, too, case, verdict and measures are in sight.
+    """
     resize(browser, width)
     browser.get(stop_page.as_uri())
+    cells = """
+      const cells = [...document.querySelectorAll('.verdicts tbody tr:first-child > *')];
+      return cells.map((cell) => cell.getBoundingClientRect()).map(({left, right}) => [left, right]);
+    """
+    ends = run(browser, cells)
+    assert len(ends) >= 10
+    assert all(left >= 0 and right <= width for left, right in ends)
     wait(browser, PLOTTED)
     overlap = """
       document.querySelector('.plots .loops').scrollIntoView({block: 'start', behavior: 'instant'});
@@ -198,7 +208,7 @@ def test_the_upright_axes_follow_what_is_in_view(stop):
     assert wait(stop, f"const most = () => {{{highest}}}; return most() > 60")
 
 
-def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(stop):
+def test_the_plots_stand_over_distance_and_speed_and_their_loops_are_those_of_a_wheelset(stop):
     # 120 km/h, 1 m/s2 from the command on; over speed, a place is its negative.
     expected = {("distance", "m"): 10.0 * 120.0 / 3.6 - 0.5 * 10.0**2, ("speed", "km/h"): -(120.0 - 36.0)}
     for (across, unit), place in expected.items():
@@ -212,6 +222,11 @@ def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(stop):
         )
         assert title.endswith(unit)
         assert shown == pytest.approx(place, rel=0.01)
+    loops = ("Clamping force over tank pressure", "Adhesion over slide")
+    titles = ".loops-plot .plot-title"
+    assert texts(stop, titles) == [f"{loop}, wheelset 3" for loop in loops]  # it decides what was missed
+    choose(stop, "wheelset", "1")
+    assert texts(stop, titles) == [f"{loop}, wheelset 1" for loop in loops]
 
 
 def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(stop):
@@ -230,38 +245,13 @@ def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(stop):
     assert not stop.find_element("css selector", ".between").is_displayed()
 
 
-def test_the_loops_are_those_of_the_wheelset_that_is_chosen(stop):
-    loops = ("Clamping force over tank pressure", "Adhesion over slide")
-    titles = ".loops-plot .plot-title"
-    assert texts(stop, titles) == [f"{loop}, wheelset 3" for loop in loops]  # it decides what was missed
-    choose(stop, "wheelset", "1")
-    assert texts(stop, titles) == [f"{loop}, wheelset 1" for loop in loops]
-
-
-def test_on_a_phone_case_verdict_and_measures_are_in_sight(browser, stop_page):
-    resize(browser, 400)
-    browser.get(stop_page.as_uri())
-    script = """
-      const cells = [...document.querySelectorAll('.verdicts tbody tr:first-child > *')];
-      return cells.map((cell) => cell.getBoundingClientRect()).map(({left, right}) => [left, right]);
-    """
-    ends = run(browser, script)
-    assert len(ends) >= 10
-    assert all(left >= 0 and right <= 400 for left, right in ends)
-
-
 def test_on_a_narrow_phone_every_panel_has_its_whole_title_and_nothing_overflows(browser, tmp_path):
     recording = make_recording()
     some = recording["slide_1"]
-    for name, unit in {
-        "dynamic_torque": "N m",
-        "dynamic_reduction": "1",
-        "friction": "1",
-        "cleaned_share": "1",
-        "sand_density": "kg/m",
-        "disc_temperature": "K",
-        "disc_surface_temperature": "K",
-    }.items():
+    units = dict.fromkeys(("dynamic_reduction", "friction", "cleaned_share"), "1")
+    units |= {"dynamic_torque": "N m", "sand_density": "kg/m"}
+    units |= {"disc_temperature": "K", "disc_surface_temperature": "K"}
+    for name, unit in units.items():
         recording = _with(recording, unit, **{f"{name}_{n}": 0.2 + some for n in (1, 2, 3, 4)})
     recording = _with(recording, "N", track_brake_force=4e4 + some)
     result = make_result(id="dry-120")

@@ -157,16 +157,8 @@ def test_the_label_of_a_recording_and_the_scenario_say_a_fault_alike(of, kind):
     assert label_words("unknown-label") == "unknown-label"
 
 
-GRIP = make_verdict(
-    id="grip",
-    measure="initial_adhesion",
-    value=0.124,
-    upper=0.08,
-    lower=None,
-    unit="g",
-    margin=-0.044,
-    status="fail",
-)
+ADHESION = {"measure": "initial_adhesion", "value": 0.124, "unit": "g", "lower": None, "upper": 0.08}
+GRIP = make_verdict(id="grip", **ADHESION, margin=-0.044, status="fail")
 
 
 @pytest.mark.parametrize(
@@ -189,27 +181,11 @@ def test_an_invalid_stop_says_by_which_number_it_is_no_test_and_not_whose_fault_
     ]
 
 
-AT_ONCE = ReadVerdict(
-    "at-once", True, "pass", "sliding_share", 42.0, "%", 35.0, None, 7.0, "42 % keeps > 35 %"
-)
-DEPTH = ReadVerdict(
-    *(
-        "depth",
-        False,
-        "fail",
-        "maximum_slide_above_cutoff",
-        14.9,
-        "%",
-        35.0,
-        None,
-        -20.1,
-        "0 of 4 wheelsets keep",
-    ),
-    mark="chosen",
-    source="ours alone",
-    definition={"low_speed_cutoff": "30 km/h (chosen)"},
-    sensitivity=(TURNING,),
-)
+SHARE_OF_TIME = "sliding_share", 42.0, "%", 35.0, None, 7.0, "42 % keeps > 35 %"
+AT_ONCE = ReadVerdict("at-once", True, "pass", *SHARE_OF_TIME)
+LARGEST = "maximum_slide_above_cutoff", 14.9, "%", 35.0, None, -20.1, "0 of 4 wheelsets keep"
+OURS = {"mark": "chosen", "source": "ours alone", "definition": {"low_speed_cutoff": "30 km/h (chosen)"}}
+DEPTH = ReadVerdict("depth", False, "fail", *LARGEST, **OURS, sensitivity=(TURNING,))
 READ = make_verdict(id="minimum-slide", readings=(AT_ONCE, DEPTH))
 
 

@@ -1,12 +1,24 @@
-"""Texts made harmless, counts, quantities, and the word of an outcome."""
+"""Texts, numbers and differences as people and programs read them."""
 
+import math
+from dataclasses import replace
 from typing import get_args
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given
+from hypothesis import given, strategies as st
 
 from uictest.judging.evaluation.result import Outcome
+from uictest.report import relative_percent
+from uictest.report.difference import (
+    Difference,
+    StatusChange,
+    difference_sentences,
+    relative_text,
+    status_difference,
+    turn,
+    worst_of_wheelsets,
+)
 from uictest.report.verdict_sentences import counts_text
 from uictest.report.words import (
     CASE_WORDS,
@@ -35,19 +47,11 @@ from .formats.made_up import ANY_TEXT, TEXTS
 
 
 @given(ANY_TEXT)
-def test_printable_text_is_one_line_that_cannot_drive_a_terminal(text):
+def test_no_text_drives_a_terminal_breaks_xml_or_begins_a_workflow_command_of_its_own(text):
     assert printable(text).isprintable()
-
-
-@given(ANY_TEXT)
-def test_whatever_the_text_xml_with_it_can_be_parsed(text):
     element = ElementTree.Element("failure", message=xml_text(text))
     element.text = xml_text(text)
     ElementTree.fromstring(ElementTree.tostring(element, encoding="utf-8"))
-
-
-@given(ANY_TEXT)
-def test_a_workflow_message_stays_one_command_and_its_properties_are_one_each(text):
     assert not set(workflow_message(text)) & set("\r\n")
     assert not set(workflow_property(text)) & set(",:\r\n")
 
@@ -122,3 +126,74 @@ def test_every_word_is_counted_and_is_one_field_of_a_line():
     assert len(counts_text(counts, 0).split(", ")) == len(CASE_WORDS)
     assert not any(" " in line_word(word) for word in CASE_WORDS)
     assert line_word("expected fail") == "expected-fail"
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "unit", "text"),
+    [
+        (473.1, 478.17, "m", "+1.07"),
+        (-2.0, -1.0, "m/s2", "+50"),
+        (-2.0, -3.0, "m/s2", "-50"),
+        (4.0, 0.0, "bar", "-100"),
+        (0.0, 1.0, "bar", "A is 0"),
+        (0.0, math.nan, "bar", "A is 0"),
+        (1.0, math.nan, "bar", "-"),
+        (20.0, 30.0, "degC", "-"),
+        ("pass", "fail", "", "-"),
+        ("none", 1.0, "", "-"),
+        (1.0, 10.994, "m", "+999"),
+        (0.001, 1.0, "km/h", "> 1000"),
+        (0.001, -1.0, "km/h", "< -1000"),
+    ],
+)
+def test_a_relative_figure_is_per_cent_of_the_size_of_a(first, second, unit, text):
+    assert relative_text(first, second, unit) == text
+
+
+@given(st.floats(1e-3, 1e6), st.floats(-1e6, 1e6), st.sampled_from([-1.0, 1.0]))
+def test_a_relative_figure_gives_the_second_side_back(size, second, sign):
+    percent = relative_percent(sign * size, second)
+    assert percent is not None
+    assert sign * size + percent / 100.0 * size == pytest.approx(second, rel=1e-9, abs=1e-6 * size)
+    assert math.copysign(1.0, percent) == math.copysign(1.0, second - sign * size)
+
+
+def test_of_many_differences_the_furthest_out_are_shown_and_of_wheelsets_the_worst():
+    """The train's own measure is no wheelset of the measure of the same name."""
+    sizes = {"adhesion_utilisation": 0.1, **{f"adhesion_utilisation_{n}": 0.1 + n for n in range(1, 5)}}
+    differences = [
+        Difference("case", name, 0.8, 0.7, within=False, deviation=size, allowed=0.01)
+        for name, size in sizes.items()
+    ]
+    train, wheelsets = worst_of_wheelsets(differences)
+    assert (train.quantity, train.remark) == ("adhesion_utilisation", "")
+    assert (wheelsets.quantity, wheelsets.remark) == ("adhesion_utilisation_4", "worst of 4 wheelsets")
+    many = [replace(train, quantity=f"quantity-{n}", deviation=float(n)) for n in range(1, 31)]
+    *lines, last = difference_sentences(many, most=3)
+    assert [line.split()[1] for line in lines] == ["quantity-30", "quantity-29", "quantity-28"]
+    assert last == "baseline: 27 more quantities out of tolerance, in results.json"
+    assert len(difference_sentences(many)) == 30
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "word"),
+    [
+        ("pass", "fail", "new"),
+        ("skipped", "invalid", "new"),
+        ("pass", "inconclusive", "new"),
+        ("error", "pass", "fixed"),
+        ("fail", "invalid", "turned"),
+        ("not_applicable", "fail", "turned"),
+        ("pass", "not_applicable", "turned"),
+        (None, "fail", "turned"),
+        ("skipped", "pass", "turned"),
+    ],
+)
+def test_a_verdict_that_is_missed_on_one_side_alone_is_new_or_fixed(first, second, word):
+    found = status_difference("case", StatusChange(first, second, "locked-wheels"))
+    assert found is not None
+    assert (found.quantity, turn(found)) == ("criterion locked-wheels", word)
+    assert found.second == second.replace("_", " ")
+    assert status_difference("case", StatusChange(first, first)) is None
+    numbers = [Difference("", "speed", 1.0, 2.0, within) for within in (False, True)]
+    assert list(map(turn, numbers)) == ["differs", "within"]

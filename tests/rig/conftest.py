@@ -13,16 +13,36 @@ from numpy.typing import NDArray
 
 from uictest.controllers import CONTROLLERS
 from uictest.core.record import layout_of
+from uictest.judging.evaluation import evaluate_simulated
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.model.parameters import WHEELSET_PARAMETERS, Parameters, WheelsetParameters
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import start
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import run_to_end
+from uictest.rig.simulation import simulate
+from uictest.rig.train_stop import compiled_rig, run_to_end
 
 Array = NDArray[np.float64]
+
+
+def controller_in_c(step):
+    """Source of a controller of contract version 2 with these statements as its step."""
+    return f"""\
+#define UICTEST_ABI_VERSION 2
+#include "uictest_controller.h"
+uint32_t uictest_abi_version(void) {{ return UICTEST_ABI_VERSION; }}
+void *uictest_create(const uictest_config *config) {{ (void)config; static int any; return &any; }}
+int32_t uictest_reset(void *controller) {{ (void)controller; return 0; }}
+int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs)
+{{
+    (void)controller;
+    {step}
+    return 0;
+}}
+void uictest_destroy(void *controller) {{ (void)controller; }}
+const char *uictest_last_error(void *controller) {{ (void)controller; return ""; }}
+"""
 
 
 class EveryParameter(Parameters, WheelsetParameters):
@@ -60,6 +80,13 @@ class Rig:
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
         inputs = self.inputs(*overrides, **fields)
         return run_to_end(compiled_rig(), inputs, every)
+
+    def judged(self, *overrides):
+        """Result of a simulated stop, and its criteria by id."""
+        case = self.case(*overrides)
+        stop = simulate(case)
+        result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
+        return result, {criterion.id: criterion for criterion in result.criteria}
 
     def columns(self, *overrides, every=20, **fields):
         """Trace of a stop by channel; a wheelset's channel has a column for each of the four."""

@@ -3,9 +3,6 @@
 import numpy as np
 import pytest
 
-from uictest.judging.evaluation import evaluate_simulated
-from uictest.rig.simulation import simulate
-
 from ..stop_bits import bits
 
 BYPASSED = ("rig.wsp=bypassed", "rig.topology=four-caliper")
@@ -76,14 +73,6 @@ def test_release_lets_a_locked_wheelset_roll_again(rig):
     assert stop["slide"][-1].max() < 0.01
 
 
-def test_a_further_application_brakes_to_standstill_and_everything_balances(rig):
-    for rail in ((), ("rail.condition=wet", "rail.friction=0.10")):
-        measures = rig.stop(AGAIN, *rail).measures
-        assert measures.stopped == 1.0
-        assert abs(measures.energy_residual) < 1e-9
-        assert abs(measures.air_residual) < 1e-9
-
-
 def test_a_command_that_a_later_one_overtakes_never_takes_effect(rig):
     """Its position needs longer: the train would brake again after its release."""
     slow = ("brake.system.positions.G={maximum_pressure: 3.8 bar, fill_time: 20 s, dead_time: 5 s}",)
@@ -146,10 +135,7 @@ def test_nothing_slides_at_the_end_of_a_stop_until_a_speed_that_did_not_before(r
 
 
 def test_what_is_of_a_standstill_does_not_apply_to_a_stop_that_ends_above(rig):
-    case = rig.case("until=10 km/h", "criteria=uictest-stop")
-    stop = simulate(case)
-    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
-    verdicts = {each.id: each for each in result.criteria}
+    result, verdicts = rig.judged("until=10 km/h", "criteria=uictest-stop")
     for name in ("standstill", "distance-over-reference"):
         assert verdicts[name].status == "not_applicable"
         assert verdicts[name].reason == "the stop ends at 10 km/h, above standstill"
@@ -159,13 +145,11 @@ def test_what_is_of_a_standstill_does_not_apply_to_a_stop_that_ends_above(rig):
 
 def test_a_stop_that_ends_before_it_has_shown_to_be_a_test_is_none(rig):
     """Sliding counts down to 60 km/h; whether it would have sufficed lies behind the end of the stop."""
-    case = rig.case(
+    result, verdicts = rig.judged(
         *("until=70 km/h", "initial_speed=120 km/h", "rail.condition=wet", "rail.friction=0.09"),
         "criteria=uic-541-05-appendix-b",
     )
-    stop = simulate(case)
-    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
-    [slide] = [each for each in result.criteria if each.id == "minimum-slide"]
+    slide = verdicts["minimum-slide"]
     assert (slide.status, result.outcome) == ("inconclusive", "inconclusive")
     assert "the stop ends at 70 km/h" in slide.reason
 
@@ -185,31 +169,7 @@ def test_a_stop_that_ends_before_it_has_shown_to_be_a_test_is_none(rig):
     ids=["course", "speed"],
 )
 def test_a_profile_cannot_judge_what_command_or_speed_keep_from_being_its_test(rig, settings, reason):
-    case = rig.case(*settings, "criteria=uic-541-05-appendix-b")
-    stop = simulate(case)
-    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
-    [distance] = [each for each in result.criteria if each.id == "braking-distance"]
+    result, verdicts = rig.judged(*settings, "criteria=uic-541-05-appendix-b")
+    distance = verdicts["braking-distance"]
     assert (distance.status, distance.reason) == ("inconclusive", reason)
     assert (result.outcome, result.reason) == ("inconclusive", f"braking-distance: {reason}")
-
-
-@pytest.mark.parametrize(
-    ("setting", "message"),
-    [
-        ("brake.command=[{at: 1 s, value: 60 %}]", "times count from the first command"),
-        ("brake.command=[{at: 0 s, value: 0 %}]", "times count from the first command"),
-        ("brake.command=[{at: 0 s, value: 60 %}, {at: 0 s, value: 80 %}]", "0 s does not come after 0 s"),
-        ("brake.command=[{at: 0 s, value: 60 %, position: Q}]", "unknown brake position 'Q'"),
-        ("brake.command=[{at: 0 s, value: 60}]", "has no unit"),
-        ("brake.command=[]", "at least 1"),
-        (
-            "brake.command=[{at: 0 s, value: 60 %}, {at: 300 s, value: 80 %}]",
-            "ends after 180 s at the latest",
-        ),
-        ("until=90 km/h", "the stop begins at 80 km/h"),
-        ("until=0 km/h", "0 km/h"),
-    ],
-)
-def test_what_cannot_be_is_refused(rig, setting, message):
-    with pytest.raises(Exception, match=message):
-        rig.case(setting)

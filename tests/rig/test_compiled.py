@@ -1,7 +1,6 @@
 """Plain Python and compiled code give the same bits."""
 
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,8 +16,7 @@ from uictest.rig.model.records import TrainRecords
 from uictest.rig.model.state import BOGIE, CAR, COUPLER, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
 from uictest.rig.model.train import run_train
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import empty_trace
+from uictest.rig.train_stop import compiled_rig, empty_trace
 
 from .plain_numbers import run_on_numbers
 
@@ -238,14 +236,10 @@ def test_the_settings_reach_what_they_say(rig):
 @pytest.mark.parametrize("number", range(len(CHOICES)), ids=[each.name for each in CHOICES])
 def test_the_number_of_a_controller_chooses_it(number, monkeypatch):
     called = []
-    noting = [SimpleNamespace(decide=partial(_note, called, each.name)) for each in CHOICES]
+    noting = [SimpleNamespace(decide=lambda *_, name=each.name: called.append(name)) for each in CHOICES]
     monkeypatch.setattr(controllers, "CHOICES", noting)
     decide(None, None, SimpleNamespace(controller=number))
     assert called == [CHOICES[number].name]
-
-
-def _note(called, name, *_):
-    called.append(name)
 
 
 SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")

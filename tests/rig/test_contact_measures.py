@@ -42,25 +42,19 @@ def test_locked_wheelsets_use_what_the_creep_law_leaves_them(rig):
     assert stop.measures.adhesion_utilisation == pytest.approx(expected, abs=5e-3)
 
 
-def test_locking_on_a_rail_whose_friction_falls_wastes_most_of_it(rig):
+def test_locking_on_a_rail_whose_friction_falls_wastes_most_of_it_and_a_dry_stop_uses_none(rig):
     """At these slip speeds the friction is near A = 0.4 of what it is at the beginning."""
     assert 0.4 < rig.stop(*LOCKING).measures.adhesion_utilisation < 0.65
-
-
-def test_dry_stop_has_no_utilisation(rig):
     measures = rig.stop().measures
     assert np.isnan(measures.adhesion_utilisation)
     assert measures.available_work == 0.0
 
 
-def test_line_builds_up_alike_whether_wheelsets_slide_or_not(rig):
+def test_line_builds_up_in_dead_time_and_half_of_the_fill_time_whether_wheelsets_slide_or_not(rig):
     dry, wet = (rig.stop(*overrides).measures for overrides in ((), WET))
     assert wet.build_up_time == pytest.approx(dry.build_up_time, abs=0.005)
     assert rig.stop("brake.position=G").measures.build_up_time > 5.0 * dry.build_up_time
-
-
-def test_build_up_time_is_the_dead_time_and_half_of_the_fill_time(rig):
-    """The relay valve follows the demand within its proportional band."""
+    # The relay valve follows the demand within its proportional band.
     p, _ = rig.parameters("brake.position=G")
     expected = p.dead_time + 0.5 / p.filling_rate
     assert rig.stop("brake.position=G").measures.build_up_time == pytest.approx(expected, rel=0.05)

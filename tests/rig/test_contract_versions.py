@@ -17,6 +17,7 @@ from uictest.rig.simulation import simulate
 
 from ..c_compiler import build_library
 from ..stop_bits import bits, stop_bits
+from .conftest import controller_in_c
 
 SLIP_BAND = Path(__file__).parents[1] / "sweeps" / "controllers" / "slip_band.py"
 SCENARIO = """\
@@ -38,24 +39,11 @@ class Wsp:
         {change}
         return answer
 """
-C = """\
-#define UICTEST_ABI_VERSION 2
-#include "uictest_controller.h"
-uint32_t uictest_abi_version(void) { return UICTEST_ABI_VERSION; }
-void *uictest_create(const uictest_config *config) { (void)config; static int any; return &any; }
-int32_t uictest_reset(void *controller) { (void)controller; return 0; }
-int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs)
-{
-    (void)controller;
-    outputs->hold[3] = inputs->cycle >= 600;
+C = controller_in_c("""\
+outputs->hold[3] = inputs->cycle >= 600;
     outputs->dynamic_reduction[1] = inputs->cycle >= 600;
     outputs->dynamic_reduction[3] = 0.25;
-    CHANGE
-    return 0;
-}
-void uictest_destroy(void *controller) { (void)controller; }
-const char *uictest_last_error(void *controller) { (void)controller; return ""; }
-"""
+    CHANGE""")
 
 
 @pytest.fixture
@@ -158,7 +146,6 @@ def test_what_it_is_given_is_what_the_motor_gives_and_the_load_of_an_axle(stop_o
 def test_requests_are_recorded_of_version_2_alone(stop_of, python):
     asking = "answer.sand_request, answer.track_brake_request = [0, 0, 1, 0], late"
     recording = simulate(stop_of(python(asking)), 0.1, run_in_process).recording
-    assert recording is not None
     time = recording["time"]
     assert set(recording["sand_request_3"]) == {1.0}
     assert set(recording["sand_request_1"]) == {0.0}
@@ -166,7 +153,6 @@ def test_requests_are_recorded_of_version_2_alone(stop_of, python):
     assert np.array_equal(recording["dynamic_reduction_2"], (time > 6.0 + 1e-9).astype(float))
     of_version_1 = PYTHON.replace("    contract = 2\n", "").format(change="answer.dynamic_reduction = None")
     old = simulate(stop_of(python(text=of_version_1)), 0.1, run_in_process).recording
-    assert old is not None
     added = {"track_brake_request", *(f"sand_request_{n}" for n in (1, 2, 3, 4))}
     assert recording.channels.keys() - old.channels.keys() == added
 
@@ -229,16 +215,13 @@ IN_C = {
 }
 
 
-@pytest.mark.parametrize("change", IN_PYTHON)
-def test_what_is_no_reduction_or_request_ends_the_stop(stop_of, python, change):
-    with pytest.raises(ControllerError, match=IN_PYTHON[change]):
-        run_in_process(assemble(stop_of(python(change))))
-
-
-@pytest.mark.parametrize("change", IN_C)
-def test_what_is_no_reduction_or_request_in_c_ends_the_stop(stop_of, library, change):
-    with pytest.raises(ControllerError, match=IN_C[change]):
-        run_in_process(assemble(stop_of(library(change))))
+@pytest.mark.parametrize(
+    ("kind", "change"), [("python", each) for each in IN_PYTHON] + [("library", each) for each in IN_C]
+)
+def test_what_is_no_reduction_or_request_ends_the_stop(stop_of, kind, change, request):
+    controller = request.getfixturevalue(kind)(change)
+    with pytest.raises(ControllerError, match=(IN_PYTHON | IN_C)[change]):
+        run_in_process(assemble(stop_of(controller)))
 
 
 @pytest.mark.parametrize(

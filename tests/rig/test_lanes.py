@@ -13,8 +13,7 @@ from uictest.rig.kernel.library import WIDTHS, processors
 from uictest.rig.lanes import _longest_first, run_in_lanes, run_trains_in_lanes
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, ROWS
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import run_to_end, stacked
+from uictest.rig.train_stop import compiled_rig, run_to_end, stacked
 
 from .trains_in_lanes import ALL as ALL_TRAINS, Trains
 
@@ -103,6 +102,12 @@ VARIANTS = (
     (MOTORS, FAILING, "rig.wsp=bypassed"),
     (MAGNETS, *WET),
     (MAGNETS, CLEANED, "rail.friction=0.05", LETTING_GO),
+    (
+        "brake.track={attraction: 100 kN, magnets: 4}",
+        "brake.position=emergency",
+        CLEANED,
+        "brake.command=20 %",
+    ),
     (SANDERS, *WET),
     (SANDERS, BLOCKED, CLEANED, "rail.friction=0.05"),
 )
@@ -169,18 +174,15 @@ def test_neighbours_order_and_number_do_not_matter(batch, numbers):
     assert batch.is_as_alone(numbers, batch.in_lanes(numbers))
 
 
-def test_threads_run_batches_of_their_own(batch):
-    shares = [ALL[first::3] for first in range(3)]
-    with ThreadPoolExecutor(3) as pool:
-        batches = list(pool.map(batch.in_lanes, shares))
-    assert all(batch.is_as_alone(share, result) for share, result in zip(shares, batches, strict=True))
-
-
-def test_parameters_and_friction_laws_are_only_read(batch):
+def test_threads_run_batches_of_their_own_and_inputs_are_only_read(batch):
     inputs = (batch.parameters, batch.wheelsets, batch.rail)
     before = [each.tobytes() for each in inputs]
     batch.in_lanes(ALL)
     assert [each.tobytes() for each in inputs] == before
+    shares = [ALL[first::3] for first in range(3)]
+    with ThreadPoolExecutor(3) as pool:
+        batches = list(pool.map(batch.in_lanes, shares))
+    assert all(batch.is_as_alone(share, result) for share, result in zip(shares, batches, strict=True))
 
 
 def test_stops_that_should_take_longest_begin_first():
@@ -241,10 +243,7 @@ def test_inputs_of_trains_are_only_read(trains):
     assert content() == before
 
 
-def test_no_trains_are_run():
+def test_a_width_that_no_register_has_is_refused_and_no_trains_are_run(batch):
     assert run_trains_in_lanes([]) == []
-
-
-def test_a_width_that_no_register_has_is_refused(batch):
     with pytest.raises(ValueError, match=r"^3 lanes: on this processor it is 2(, 4)?(, 8)?$"):
         batch.in_lanes([0], 3)

@@ -1,4 +1,4 @@
-"""Rails whose whole creep curve changes, layers that earlier stops have worn, whose loss cleans."""
+"""Rails whose whole creep curve changes, layers, what cleans them, and the largest force of each curve."""
 
 import math
 import subprocess
@@ -7,11 +7,14 @@ import textwrap
 
 import numpy as np
 import pytest
+from hypothesis import assume, example, given, strategies as st
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from uictest.core.physics import contact_stiffness, creep_force, highest_creep_force
 from uictest.core.rail_laws import LAWS
-from uictest.rig.rail_assembly import highest_creep_law
+from uictest.plans.scenario import RailCondition, load_part
+from uictest.rig.rail_assembly import highest_creep_forces, highest_creep_law
 
 from ..stop_bits import bits
 
@@ -22,7 +25,7 @@ BYPASSED = "rig.wsp=bypassed"
 SHAPE = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
 
 
-def highest(force, slips):
+def largest_force(force, slips):
     """Return the largest force, sought first at every twentieth slip, then around the largest of those."""
     coarse = [force(slip) for slip in slips[::20]]
     near = 20 * int(np.argmax(coarse))
@@ -50,20 +53,11 @@ def test_the_loss_of_one_contact_cleans_as_half_of_that_of_a_wheelset(rig):
     assert bits(of_contact) != bits(rig.stop(*CURVES, f"{energy}=2750 J/m"))
 
 
-@pytest.mark.parametrize("rail", [CURVES, (LAYER,)])
-def test_energy_closes(rig, rail):
-    for wsp in ("active", "bypassed"):
-        assert abs(rig.stop(*rail, f"rig.wsp={wsp}").measures.energy_residual) < 1e-8
-
-
-def test_what_earlier_stops_spent_is_what_the_first_wheelset_finds(rig):
+def test_what_earlier_stops_spent_is_what_the_first_wheelset_finds_as_far_as_the_rail_keeps_it(rig):
     stop = rig.columns(LAYER, BYPASSED, "rail.condition.cleaning.spent=30 kJ/m")
     share = 1.0 - math.exp(-30.0 / 60.0)
     assert stop["cleaned_share"][0] == pytest.approx(np.full(4, share), abs=1e-9)
     assert stop["friction"][0] == pytest.approx(np.full(4, 0.05 + share * (0.28 - 0.05)), abs=1e-9)
-
-
-def test_a_rail_that_keeps_half_of_it_shows_half(rig):
     half = ("rail.condition.cleaning.carry_over=0.5", "rail.condition.cleaning.spent=30 kJ/m")
     stop = rig.columns(LAYER, BYPASSED, *half)
     assert stop["cleaned_share"][0] == pytest.approx(np.full(4, 0.5 * (1.0 - math.exp(-0.5))), abs=1e-9)
@@ -104,7 +98,7 @@ def test_the_largest_force_between_both_curves_is_known_to_a_per_cent_and_a_half
             stiffness = contact_stiffness(float(found.contact.creep_stiffness), load_ratio)
             slips = np.geomspace(1e-4, speed, 3000)
             law = (speed, load, stiffness, friction, *curve)
-            exact = highest(lambda slip, law=law: creep_force(slip, *law)[0], slips)
+            exact = largest_force(lambda slip, law=law: creep_force(slip, *law)[0], slips)
             ends = [
                 highest_creep_force(speed, load, friction, stiffness, scale, *coefficients)
                 for scale, coefficients in map(highest_creep_law, (found, clean))
@@ -113,14 +107,11 @@ def test_the_largest_force_between_both_curves_is_known_to_a_per_cent_and_a_half
     assert np.abs(errors).max() < 0.015
 
 
-def test_a_film_that_counts_as_much_as_bare_rail_is_a_mixture(rig):
+def test_a_film_is_a_mixture_where_it_counts_as_bare_rail_and_else_slippery_until_it_is_gone(rig):
     film = rig.columns(FILM, BYPASSED, "rail.condition.cleaning.film.weight=1")
     mixture = rig.columns(LAYER, BYPASSED)
     assert film["friction"] == pytest.approx(mixture["friction"], rel=1e-9)
-
-
-def test_a_film_stays_slippery_where_half_of_it_is_gone(rig):
-    """With weights 1 and 25, half bare counts as 1 of 26, for the rail that a first wheelset finds."""
+    # With weights 1 and 25, half bare counts as 1 of 26, for the rail that a first wheelset finds.
     spent = f"rail.condition.cleaning.spent={60.0 * math.log(2.0)} kJ/m"
     stop = rig.columns(FILM, BYPASSED, spent)
     assert stop["cleaned_share"][0] == pytest.approx(np.full(4, 1.0 / 26.0), rel=1e-9)
@@ -199,21 +190,11 @@ def test_a_rail_that_no_energy_cleans_gives_the_bits_of_one_that_is_not_cleaned(
     assert bits(rig.stop(*rail, cleaning(), recovered_friction=0.01)) == bits(without)
 
 
-def test_a_dry_rail_keeps_its_bits(rig):
+def test_a_dry_rail_keeps_its_bits_and_the_library_cleans_as_its_numbers_written_out(rig):
     """Its friction lies above that of the cleaned one."""
     assert bits(rig.stop(cleaning())) == bits(rig.stop())
-
-
-def test_the_condition_of_the_library_cleans_as_its_numbers_written_out(rig):
     shipped = rig.stop("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.08")
     assert bits(shipped) == bits(rig.stop(*SLIPPERY, cleaning()))
-
-
-def test_energy_closes_as_on_a_rail_that_is_not_cleaned(rig):
-    """Cleaning moves no energy: what the contacts lose is heat as before."""
-    for stop in (LOCKED, SLIPPERY):
-        for extra in ((), (cleaning(),)):
-            assert abs(rig.stop(*stop, *extra).measures.energy_residual) < 1e-9
 
 
 @pytest.mark.parametrize("finer", ["simulation.time_step=0.25 ms", "controller.cycle_time=5 ms"])
@@ -299,3 +280,93 @@ def solved(columns, p, energy, reach, carry_over):
         arrived = np.interp(place[:, i], place[:, i - 1], left[:, i - 1], left=0.0)
         left[:, i] = 1.0 - (1.0 - own[:, i]) * (1.0 - carry_over * arrived)
     return left
+
+
+STIFFNESS = 0.25 * 8.1e10 * math.pi * 6e-3 * 5e-3 * 4.3
+REFERENCE_LOAD = 55e3
+
+
+def library_rail(name):
+    condition = load_part(f"rails/{name}")
+    assert isinstance(condition, RailCondition)
+    return condition
+
+
+def wet_rail(**changes):
+    return library_rail("wet").model_copy(update=changes)
+
+
+def creep(w, v, load, mu0, condition):
+    """Polach (2005), force of one wheel."""
+    ratio, decay = float(condition.friction_ratio), float(condition.friction_decay)
+    ka, ks = float(condition.reduction_adhesion), float(condition.reduction_slip)
+    mu = mu0 * ((1 - ratio) * math.exp(-decay * w) + ratio)
+    eps = STIFFNESS * (load / REFERENCE_LOAD) ** (2 / 3) * w / v / (load * mu)
+    return 2 * load * mu / math.pi * (ka * eps / (1 + (ka * eps) ** 2) + math.atan(ks * eps))
+
+
+def searched(v, load, mu0, condition):
+    slips = np.geomspace(1e-4, 200.0, 400)
+    best = int(np.argmax([creep(w, v, load, mu0, condition) for w in slips]))
+    around = slips[max(best - 1, 0)], slips[min(best + 1, 399)]
+    found = minimize_scalar(
+        lambda w: -creep(w, v, load, mu0, condition), bounds=around, method="bounded", options={"xatol": 1e-9}
+    )
+    return float(-found.fun)
+
+
+def ours(v, load, mu0, condition):
+    samples = (np.array([x]) for x in (v, load, mu0))
+    return float(highest_creep_forces(condition, *samples)[0])
+
+
+@pytest.mark.parametrize("v", [3.0, 10.0, 33.0, 55.0, 90.0])
+@pytest.mark.parametrize("mu0", [0.03, 0.09, 0.15, 0.30, 0.55])
+@pytest.mark.parametrize("name", ["wet", "dry"])
+def test_the_fit_is_the_maximum_of_the_curve(name, mu0, v):
+    condition = library_rail(name)
+    for load in (40e3, 55e3, 70e3):
+        expected = searched(v, load, mu0, condition)
+        assert ours(v, load, mu0, condition) == pytest.approx(expected, rel=1e-3)
+
+
+@example(1.0, 1.0, 1.0, 1.0, 3.0)
+@given(
+    st.floats(0.2, 1.0), st.floats(0.01, 1.0), st.floats(0.1, 1.0), st.floats(0.1, 1.0), st.floats(3.0, 90.0)
+)
+def test_rails_of_other_laws_are_known_to_a_few_per_cent(ratio, decay, adhesion, slip, v):
+    condition = wet_rail(
+        friction_ratio=ratio,
+        friction_decay=decay,
+        reduction_adhesion=adhesion,
+        reduction_slip=slip * adhesion,
+    )
+    expected = searched(v, 55e3, 0.1, condition)
+    # Of deeper falls the test below says what is not reached.
+    assume(expected > 0.4 * 0.1 * 55e3)
+    assert ours(v, 55e3, 0.1, condition) == pytest.approx(expected, rel=0.03)
+
+
+@pytest.mark.xfail(reason="two maxima nearly as high: eight terms miss this one by 3.2 % (known errors)")
+def test_a_rail_with_two_maxima_is_known_to_a_few_per_cent():
+    condition = wet_rail(
+        friction_ratio=0.21875,
+        friction_decay=0.4375,
+        reduction_adhesion=0.125,
+        reduction_slip=0.1015625 * 0.125,
+    )
+    expected = searched(49.0, 55e3, 0.1, condition)
+    assert ours(49.0, 55e3, 0.1, condition) == pytest.approx(expected, rel=0.03)
+
+
+def test_where_friction_does_not_fall_or_the_train_stands_it_is_all_and_of_what_is_not_known_nothing():
+    for constant in (wet_rail(friction_ratio=1.0), wet_rail(friction_decay=0.0)):
+        assert ours(20.0, 55e3, 0.1, constant) == pytest.approx(5500.0, rel=1e-3)
+    scale, coefficients = highest_creep_law(library_rail("wet"))
+    stiffness = contact_stiffness(STIFFNESS, 1.0)
+    assert highest_creep_force(0.0, 55e3, 0.1, stiffness, scale, *coefficients) == pytest.approx(
+        5500.0, rel=2e-3
+    )
+    samples = np.array([[20.0, 55e3, 0.1], [np.nan, 55e3, 0.1], [20.0, np.nan, 0.1], [20.0, 55e3, np.nan]])
+    highest = highest_creep_forces(wet_rail(), *samples.T)
+    np.testing.assert_array_equal(np.isnan(highest), [False, True, True, True])

@@ -86,16 +86,12 @@ def test_samples_from_the_end_on_are_not_fed(slipping):
 
 def test_a_gap_leaves_the_largest_slide_and_ends_a_lock(slipping):
     recording, definition = slipping
-    whole, gap = (_replay(recording, definition, with_faults=False) for _ in range(2))
-    pass_samples(whole)
     deepest = int(np.nanargmax(1.0 - recording["wheel_speed_1"][:-50] / recording["speed"][:-50]))
     channel = recording["wheel_speed_1"].copy()
     channel[deepest + 20 : deepest + 40] = np.nan
-    gap = _replay(
-        replace(recording, channels={**recording.channels, "wheel_speed_1": channel}),
-        definition,
-        with_faults=False,
-    )
+    gapped = replace(recording, channels={**recording.channels, "wheel_speed_1": channel})
+    whole, gap = (_replay(each, definition, with_faults=False) for each in (recording, gapped))
+    pass_samples(whole)
     pass_samples(gap)
     assert gap.wheelsets[0].maximum_slide == whole.wheelsets[0].maximum_slide
 
@@ -109,7 +105,6 @@ def test_exact_records_give_the_shares_of_the_rig(wsp):
     settings = ["rail.condition=wet", "rail.friction=0.07", f"rail.cleaning={_CLEANING}", f"rig.wsp={wsp}"]
     case = stated_case("stop", 80.0 / 3.6, settings)
     recording = simulate(case, record_every=0.01).recording
-    assert recording is not None
     moving = np.asarray(recording["speed"]) > 0.5
 
     def channel(name):
@@ -151,15 +146,12 @@ def test_what_earlier_stops_spent_has_cleaned_the_rail(energy, share):
     np.testing.assert_allclose(friction, 0.05 + share * 0.23, atol=1e-6)
 
 
-def test_a_rail_on_which_nothing_slides_is_as_it_was_found():
+def test_a_constant_slide_settles_at_the_share_of_its_loss_and_nothing_that_rolls_cleans():
     rail, full = steady_slide(2.0, 0.0)
     friction, share = rail.met(0.1 * full)
     np.testing.assert_array_equal(friction, 0.1)
     np.testing.assert_array_equal(share, 0.0)
-
-
-def test_a_constant_slide_settles_at_the_share_of_its_loss():
-    """1 - exp(-W / Wc), with W = F s per metre, for the first wheelset and for those behind it."""
+    # 1 - exp(-W / Wc), with W = F s per metre, for the first wheelset and for those behind it.
     cleaning = ("energy=5000 J/m", "recovered_friction=0.1")
     rail, full = steady_slide(5.0, 2.0, *cleaning)
     # The rail is as good as a clean one, so that the friction stays as it is: the loss is the creep law's.

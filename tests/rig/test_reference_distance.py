@@ -117,14 +117,11 @@ def test_without_a_fall_of_the_friction_the_deepest_slide_is_the_best_and_the_di
     assert reference(even) == pytest.approx((120 / 3.6) ** 2 / (2 * deceleration) + built_up, rel=1e-2)
 
 
-def test_a_rail_that_is_clean_at_once_is_the_clean_rail(case):
+def test_a_rail_that_is_cleaned_shortens_it_at_most_to_that_of_a_clean_rail(case):
     at_once = case("rail.cleaning.energy=1 J/m", "rail.cleaning.recovered_friction=0.11", text=CLEANING)
     clean = case("rail.friction=0.11")
     assert reference(at_once) == pytest.approx(reference(clean), rel=3e-3)
-
-
-def test_what_the_wheelsets_ahead_have_cleaned_shortens_it(case):
-    """Nothing, half and all of it left to the next wheelset; at most as on the clean rail."""
+    # Nothing, half and all of it left to the next wheelset; at most as on the clean rail.
     distances = [reference(case(f"rail.cleaning.carry_over={share}", text=CLEANING)) for share in (0, 0.5, 1)]
     assert distances == sorted(distances, reverse=True)
     assert distances[0] > 1.02 * distances[1] > 1.04 * distances[2]

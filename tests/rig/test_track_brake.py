@@ -8,10 +8,9 @@ from uictest.core.measures.catalogue.deceleration import initial_adhesion
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.external.in_process import run_in_process
-from uictest.rig.lanes import run_in_lanes, run_trains_in_lanes
+from uictest.rig.lanes import run_trains_in_lanes
 from uictest.rig.simulation import run_coupled
 from uictest.rig.train_assembly import Coupling, assemble_train
-from uictest.rig.train_stop import stacked
 
 EMERGENCY = "brake.position=emergency"
 AT_ONCE = "delay: 0 s, rise_time: 1 ms"
@@ -175,14 +174,11 @@ def test_a_failed_one_does_not_come_and_one_that_fails_lets_go(rig):
     assert np.all(later["track_brake_force"][later["time"] > at_90 + 0.25] == 0.0)
 
 
-def test_what_the_magnets_slow_is_no_adhesion_of_wheels(rig):
+def test_what_the_magnets_slow_of_their_own_car_or_another_is_no_adhesion_of_wheels(rig):
     overrides = (*SLIPPERY, "initial_speed=120 km/h", TO_REST)
     stops = [rig.stop(*overrides, position).measures for position in ("brake.position=R", EMERGENCY)]
     assert initial_adhesion(stops[0], 3.0).unavailable_reason == ""
     assert "track brake acted" in initial_adhesion(stops[1], 3.0).unavailable_reason
-
-
-def test_what_magnets_of_another_car_slow_is_no_adhesion_of_wheels_either(rig):
     slippery = (*SLIPPERY, "initial_speed=60 km/h", EMERGENCY)
     never = "faults=[{at: 0 s, part: track-brake, kind: failed}]"
     without, with_one, failed = (rig.case(*slippery, *more) for more in ((), (TO_REST,), (TO_REST, never)))
@@ -202,16 +198,6 @@ def test_what_magnets_of_another_car_slow_is_no_adhesion_of_wheels_either(rig):
 def test_stops_without_one_have_neither_energy_nor_time(rig):
     measures = rig.stop(EMERGENCY).measures
     assert np.isnan([measures.track_brake_energy, measures.track_brake_time]).all()
-
-
-def test_next_to_others_in_lanes_it_gives_the_bits_of_a_stop_alone(rig):
-    variants = ((), (MAGNETS, EMERGENCY), (TO_REST, EMERGENCY, *CLEANED))
-    inputs = [rig.inputs(*overrides, "initial_speed=60 km/h") for overrides in variants]
-    batch = run_in_lanes(*stacked(inputs))
-    for number, overrides in enumerate(variants):
-        alone = rig.stop(*overrides, "initial_speed=60 km/h")
-        assert batch.measures[number].tobytes() == alone.measures.tobytes()
-        assert batch.wheelset_measures[number].tobytes() == alone.wheelset_measures.tobytes()
 
 
 def cleaning(share):
@@ -281,43 +267,17 @@ def asked(tmp_path, monkeypatch):
 
 
 def test_it_acts_while_a_controller_asks_for_it_where_the_scenario_says_so(asked):
+    """A request that is not heard stays what it was."""
     requested = f"{{attraction: 100 kN, when: requested, {AT_ONCE}}}"
-    train = asked(requested)
-    acts = train["time"][train["track_brake_force"] > 0.0]
-    assert (acts[0], acts[-1]) == pytest.approx((1.0, 3.0), abs=0.03)
+    silent = "faults=[{at: 2 s, part: controller, kind: silent, value: 3 s}]"
+    for overrides, end in (((), 3.0), ((silent,), 5.0)):
+        train = asked(requested, *overrides)
+        acts = train["time"][train["track_brake_force"] > 0.0]
+        assert (acts[0], acts[-1]) == pytest.approx((1.0, end), abs=0.03)
     assert asked(requested, "rig.wsp=bypassed")["track_brake_force"].max() == 0.0
     train = asked("{attraction: 100 kN}")
     assert train["track_brake_force"].max() == 0.0
     assert train["track_brake_request"].max() == 1.0
-
-
-def test_a_request_that_is_not_heard_stays_what_it_was(asked):
-    silent = "faults=[{at: 2 s, part: controller, kind: silent, value: 3 s}]"
-    train = asked(f"{{attraction: 100 kN, when: requested, {AT_ONCE}}}", silent)
-    acts = train["time"][train["track_brake_force"] > 0.0]
-    assert (acts[0], acts[-1]) == pytest.approx((1.0, 5.0), abs=0.03)
-
-
-def test_a_fault_of_a_brake_that_the_car_lacks_is_refused(rig):
-    with pytest.raises(Exception, match="this car has no track brake"):
-        rig.case("faults=[{at: 0 s, part: track-brake, kind: failed}]")
-
-
-@pytest.mark.parametrize(
-    ("section", "message"),
-    [
-        ("{attraction: 100 kN, magnets: 3}", "3 magnets do not split over two bogies"),
-        ("{attraction: 100 kN, friction_speeds: [4 km/h, 9 km/h]}", "9 km/h is above 4 km/h"),
-        ("{attraction: 100}", "unit"),
-        ("{magnets: 4}", "attraction"),
-        ("{attraction: 100 kN, when: sometimes}", "emergency"),
-        ("{attraction: 100 kN, attracts: 1}", "attracts"),
-        ("{attraction: 100 kN, when: requested}", "no controller that is built in asks for the track brake"),
-    ],
-)
-def test_what_cannot_be_is_refused(rig, section, message):
-    with pytest.raises(Exception, match=message):
-        rig.case(f"brake.track={section}")
 
 
 def test_a_brake_without_the_position_in_which_it_acts_is_refused(tmp_path):

@@ -16,6 +16,7 @@ from uictest.rig.simulation import simulate
 from uictest.running.campaign import RecordingRequest, Stop, run_stop
 
 from ..c_compiler import build_library
+from .conftest import controller_in_c
 
 SCENARIO = """\
 schema: uictest/scenario/1
@@ -55,24 +56,11 @@ class Shown:
         held = [inputs.train_speed_valid, inputs.acceleration_valid, inputs.train_speed > 10.0, 0]
         return Outputs(held, [0] * 4, inputs.acceleration if inputs.cycle % 2 else inputs.train_speed)
 """
-C = """\
-#define UICTEST_ABI_VERSION 2
-#include "uictest_controller.h"
-uint32_t uictest_abi_version(void) { return UICTEST_ABI_VERSION; }
-void *uictest_create(const uictest_config *config) { (void)config; static int any; return &any; }
-int32_t uictest_reset(void *controller) { (void)controller; return 0; }
-int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs)
-{
-    (void)controller;
-    outputs->hold[0] = inputs->train_speed_valid;
+C = controller_in_c("""\
+outputs->hold[0] = inputs->train_speed_valid;
     outputs->hold[1] = inputs->acceleration_valid;
     outputs->hold[2] = inputs->train_speed > 10.0;
-    outputs->reference_speed = inputs->cycle % 2 ? inputs->acceleration : inputs->train_speed;
-    return 0;
-}
-void uictest_destroy(void *controller) { (void)controller; }
-const char *uictest_last_error(void *controller) { (void)controller; return ""; }
-"""
+    outputs->reference_speed = inputs->cycle % 2 ? inputs->acceleration : inputs->train_speed;""")
 
 
 @pytest.fixture
@@ -92,13 +80,7 @@ def case(tmp_path, monkeypatch):
 @pytest.fixture
 def columns(case):
     """Channels of a stop at the beginning of every controller cycle but the last."""
-
-    def of(sensors, *overrides):
-        recording = simulate(case(sensors, *overrides), 0.01).recording
-        assert recording is not None
-        return recording
-
-    return of
+    return lambda sensors, *overrides: simulate(case(sensors, *overrides), 0.01).recording
 
 
 def exact(period, delay, gain="0 %"):
@@ -309,21 +291,14 @@ def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(rig, topolog
     assert check(run, "pressure-sensors-in-range").status == "pass"
 
 
-def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(rig):
+def test_checks_of_ranges_hold_or_name_every_sensor_that_was_limited_that_of_the_brake_line_too(rig):
     run = judged(rig, pressure="3 bar")
     reason = check(run, "pressure-sensors-in-range").reason
     assert run.result.outcome == "invalid"
     for place in ("wheelset 1", "wheelset 4", "the brake line"):
         assert f"pressure sensor of {place} limited to 3 bar for" in reason
-
-
-def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(rig):
-    """One time is kept for all sensors; here it is not that of the loadcells, which follow."""
+    # One time is kept for all sensors; here it is not that of the loadcells, which follow.
     run = judged(rig, loadcell="14 kN", pressure="1 bar")
     for name in ("loadcells-in-range", "pressure-sensors-in-range"):
         assert "; the first of any kind by " in check(run, name).reason
-
-
-def test_a_stop_within_the_ranges_has_its_checks_hold(rig):
-    run = judged(rig)
-    assert {each.status for each in run.result.criteria if each.layer == "rig"} == {"pass"}
+    assert {each.status for each in judged(rig).result.criteria if each.layer == "rig"} == {"pass"}

@@ -128,14 +128,6 @@ def test_a_radius_that_the_wsp_was_told_wrongly_moves_nothing_but_readings(rig):
     assert not {"speed", "rotation", "torque", "brake_heat", "wheel_load"} & set(changed)
 
 
-def test_energy_closes_with_four_radii(rig):
-    radii = [own(number, "wheel_radius", f"{0.40 + 0.01 * number} m") for number in WHEELSET_NUMBERS]
-    for overrides in (DRY, WET):
-        measures = rig.stop(*overrides, *radii, "rig.compensation=full").measures
-        assert measures.stopped == 1.0
-        assert abs(measures.energy_residual) < 1e-9
-
-
 @pytest.mark.parametrize("name", ["brake_force", "pad_friction"])
 def test_a_weak_brake_has_less_torque_in_a_dry_stop(rig, name):
     regular_friction = float(rig.case().scenario.brake.system.disc.pad_friction)

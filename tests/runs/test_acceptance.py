@@ -1,10 +1,15 @@
-"""The acceptance of a WSP over a series: what it may not pass."""
+"""Runs of series and of cases as nobody asked otherwise: what they may not pass."""
 
+import os
+import re
 from pathlib import Path
 
 import pytest
 
 import uictest
+from uictest import runs
+from uictest.plans.scenario import load
+from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 CLEANED = "  - {scenario: cleaned-rail-120.yaml, set: {rail.friction: [0.09, 0.10]}}\n"
@@ -101,3 +106,38 @@ def test_a_verdict_that_turns_meets_nothing_where_strictness_is_asked_for(tmp_pa
     strict = uictest.run(path, strict=True)
     assert not strict.met
     assert [verdict.id for verdict in strict[0].unsettled] == ["slides-deeply"]
+
+
+OUTSIDE = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 120 km/h
+controller: {python: own.py, class: Own}
+"""
+TELLS_WHERE_IT_RUNS = """\
+import os
+class Own:
+    def __init__(self, config): pass
+    def reset(self): pass
+    def step(self, inputs): raise ValueError(f"process {os.getpid()}")
+"""
+
+
+def test_a_controller_from_outside_runs_in_a_process_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("own.py").write_text(TELLS_WHERE_IT_RUNS, "utf-8")
+    Path("stop.yaml").write_text(OUTSIDE, "utf-8")
+    batch = runs.batch_of(load([Path("stop.yaml")]), [], ["run", "stop.yaml"], None)
+    [result] = runs.run_batch(batch, runs.Observer()).content.results
+    told = re.search(r"process (\d+)", result.reason)
+    assert told is not None, result.reason
+    assert int(told[1]) != os.getpid()
+
+
+def test_what_strict_does_not_count_as_met_counts_for_maxfail(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("stop.yaml").write_text(TURNING, "utf-8")
+    cases = load([Path("stop.yaml")], ["seed=0,1"])
+    for strict, run in ((False, 2), (True, 1)):
+        settings = RunSettings(recording=RecordingRequest("none"), maxfail=1, strict=strict)
+        assert len(run_cases(cases, settings).results) == run

@@ -21,16 +21,19 @@ SEEDS = (3, 4, 5, 6)
 CHANNELS = {"speed": KILOMETRE_PER_HOUR, "wheel_speed_2": KILOMETRE_PER_HOUR, "cylinder_pressure_3": BAR}
 
 
-@pytest.fixture
-def content(tmp_path):
-    """What reports show of a stop that is repeated under four seeds."""
-    (tmp_path / "stop.yaml").write_text(f"{STOP}repeat: {len(SEEDS)}\nseed: {SEEDS[0]}\n", "utf-8")
-    batch = runs.batch_of(load([tmp_path / "stop.yaml"]), [], ["run"], None)
-    return runs.run_batch(batch, runs.Observer(), draws_stops=True).content
+def repeated(folder, further):
+    """Return what reports show of a stop that is repeated, and the same once it is made again."""
+    (folder / "stop.yaml").write_text(f"{STOP}{further}", "utf-8")
+    cases = load([folder / "stop.yaml"])
+    content = runs.run_batch(
+        runs.batch_of(cases, [], ["run"], None), runs.Observer(), draws_stops=True
+    ).content
+    return content, with_traces(replace(content, traces={}), cases, {}, 0.01)
 
 
-def test_the_band_spans_the_stops_as_they_are_alone(content, tmp_path):
-    (trace,) = content.traces.values()
+def test_the_band_spans_the_stops_as_they_are_alone_and_is_the_same_on_a_page_made_again(tmp_path):
+    content, again = repeated(tmp_path, f"repeat: {len(SEEDS)}\nseed: {SEEDS[0]}\n")
+    (trace,), (other,) = content.traces.values(), again.traces.values()
     (tmp_path / "alone.yaml").write_text(STOP, "utf-8")
     alone = [
         uictest.run(tmp_path / "alone.yaml", seed=seed, record="all", jobs=1).recording("stop")
@@ -47,13 +50,8 @@ def test_the_band_spans_the_stops_as_they_are_alone(content, tmp_path):
         assert low.y.min() == pytest.approx(
             min(np.min(stop[name][stop["time"] <= trace.end]) for stop in alone) / size, abs=0.1
         )
-
-
-def test_a_page_that_is_made_again_has_the_same_band(content, tmp_path):
-    again = with_traces(replace(content, traces={}), load([tmp_path / "stop.yaml"]), {}, 0.01)
-    (own,), (other,) = content.traces.values(), again.traces.values()
-    assert own.band.keys() == other.band.keys() > set(CHANNELS)
-    for name, edges in own.band.items():
+    assert trace.band.keys() == other.band.keys() > set(CHANNELS)
+    for name, edges in trace.band.items():
         for edge, same in zip(edges, other.band[name], strict=True):
             assert np.array_equal(edge.x, same.x)
             assert np.array_equal(edge.y, same.y, equal_nan=True)
@@ -61,9 +59,5 @@ def test_a_page_that_is_made_again_has_the_same_band(content, tmp_path):
 
 def test_only_so_many_stops_make_the_band(monkeypatch, tmp_path):
     monkeypatch.setattr(report, "BAND_STOPS", 2)
-    (tmp_path / "stop.yaml").write_text(f"{STOP}repeat: 3\n", "utf-8")
-    batch = runs.batch_of(load([tmp_path / "stop.yaml"]), [], ["run"], None)
-    content = runs.run_batch(batch, runs.Observer(), draws_stops=True).content
-    assert [trace.band_stops for trace in content.traces.values()] == [2]
-    again = with_traces(replace(content, traces={}), load([tmp_path / "stop.yaml"]), {}, 0.01)
-    assert [trace.band_stops for trace in again.traces.values()] == [2]
+    for content in repeated(tmp_path, "repeat: 3\n"):
+        assert [trace.band_stops for trace in content.traces.values()] == [2]

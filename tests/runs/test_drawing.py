@@ -41,15 +41,20 @@ def replayed(monkeypatch):
     return intervals
 
 
-def test_a_small_batch_is_recorded_as_it_runs(replayed):
+def test_a_small_batch_is_recorded_as_it_runs_unless_that_is_too_coarse_for_the_valves(replayed):
     drawing = TraceCollection(_cases(2), RecordingRequest("none"), needed=True)
     assert drawing.recording.cases == "all"
     drawing.add(CaseRun(_result("case-0"), RECORDING))
     assert list(drawing.finish([_result("case-0")], jobs=1, interrupted=False)) == ["case-0"]
     assert replayed == {}
+    drawing = TraceCollection(_cases(1), RecordingRequest("all", every=0.1), needed=True)
+    assert drawing.recording.every == 0.1
+    drawing.add(CaseRun(_result("case-0"), RECORDING))
+    assert list(drawing.finish([_result("case-0")], jobs=1, interrupted=False)) == ["case-0"]
+    assert replayed == {"case-0": CYCLE}
 
 
-def test_of_a_large_batch_the_worst_are_simulated_again(replayed):
+def test_of_a_large_batch_the_worst_or_those_chosen_are_simulated_again(replayed):
     cases = _cases(DRAWN + 5)
     drawing = TraceCollection(cases, RecordingRequest("failed"), needed=True)
     assert drawing.recording == RecordingRequest("failed")
@@ -60,22 +65,12 @@ def test_of_a_large_batch_the_worst_are_simulated_again(replayed):
     # Of those that failed one is recorded already, and an error has nothing to draw.
     assert {f"case-{DRAWN + n}" for n in range(4)} <= set(replayed)
     assert f"case-{DRAWN + 4}" not in replayed
-
-
-def test_chosen_cases_of_a_large_batch_are_simulated_again(replayed):
+    replayed.clear()
     cases = _cases(2 * DRAWN)
     chosen = {case.id for case in cases[DRAWN - 2 :]}
     drawing = TraceCollection(cases, RecordingRequest("failed"), needed=True, drawn_first=chosen)
     results = [_result(case.id, "fail" if case.id not in chosen else "pass") for case in cases]
     assert drawing.finish(results, jobs=1, interrupted=False).keys() == chosen == set(replayed)
-
-
-def test_a_recording_too_coarse_for_the_valves_is_not_what_a_page_draws(replayed):
-    drawing = TraceCollection(_cases(1), RecordingRequest("all", every=0.1), needed=True)
-    assert drawing.recording.every == 0.1
-    drawing.add(CaseRun(_result("case-0"), RECORDING))
-    assert list(drawing.finish([_result("case-0")], jobs=1, interrupted=False)) == ["case-0"]
-    assert replayed == {"case-0": CYCLE}
 
 
 @pytest.mark.parametrize(("wanted", "interrupted"), [(False, False), (True, True)])

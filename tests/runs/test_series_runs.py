@@ -11,7 +11,7 @@ from uictest.running import campaign
 from uictest.runs.batch import run_series
 
 
-@pytest.fixture
+@pytest.fixture(autouse=True)
 def judged(monkeypatch):
     """Series without stops, which are met or not as they say."""
     monkeypatch.setattr(judging_series, "judge_results", lambda planned, results: planned)
@@ -31,7 +31,6 @@ def ran(met, maxfail=None, interrupted=None):
     return run_series(planned, run, maxfail=maxfail, show=shown.append), shown
 
 
-@pytest.mark.usefixtures("judged")
 @pytest.mark.parametrize(("maxfail", "run"), [(None, 5), (1, 2), (2, 4), (3, 5)])
 def test_after_so_many_that_are_missed_no_further_one_is_run(maxfail, run):
     batch, shown = ran([True, False, True, False, True], maxfail)
@@ -40,13 +39,11 @@ def test_after_so_many_that_are_missed_no_further_one_is_run(maxfail, run):
     assert not batch.interrupted
 
 
-@pytest.mark.usefixtures("judged")
 def test_a_series_that_is_interrupted_is_not_judged_and_none_follows():
     batch, shown = ran([True] * 4, interrupted=2)
     assert (len(batch.results), len(shown), batch.interrupted) == (2, 2, True)
 
 
-@pytest.mark.usefixtures("judged")
 def test_a_series_is_shown_where_an_interrupt_ends_the_question_how_firm_it_is():
     def interrupt(planned, result):
         raise KeyboardInterrupt

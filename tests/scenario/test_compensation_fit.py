@@ -9,10 +9,14 @@ def told(case):
     return [str(each) for each in misfits(case.scenario)]
 
 
-def test_the_shipped_compensation_is_for_the_shipped_rig(case):
+def test_the_shipped_compensation_is_for_the_shipped_rig_and_one_that_lists_none_is_not_known_to_fit(case):
     differences = rig_differences(case().scenario)
     assert differences
     assert all(each.share == 0.0 for each in differences)
+    scenario = case().scenario
+    model = scenario.rig.compensation_model.model_copy(update={"identified_for": None})
+    rig = scenario.rig.model_copy(update={"compensation_model": model})
+    assert rig_differences(scenario.model_copy(update={"rig": rig})) is None
 
 
 @pytest.mark.parametrize(
@@ -30,9 +34,13 @@ def test_a_number_beyond_its_tolerance_is_named_with_both_values(case, override,
     assert told(case(override, "rig.compensation_model=identify")) == []
 
 
-def test_the_valve_of_a_module_without_a_caliper_counts(case):
+def test_valves_count_where_a_module_has_no_caliper_and_once_where_they_differ_alike(case):
     [reason] = told(case("vehicle.wheelsets.3.wsp_valve.vent_conductance=9e-8 m3/(s Pa)"))
     assert reason.startswith("vehicle.wheelsets.3.wsp_valve.vent_conductance is 9e-8 m3/(s Pa), ")
+    conductance = "vehicle.wheelsets.{}.wsp_valve.vent_conductance=3.5e-8 m3/(s Pa)"
+    assert told(case(*(conductance.format(n) for n in (2, 3, 4)))) == []
+    # No compensation stands in for that one.
+    assert told(case("vehicle.wheelsets.1.wsp_valve.vent_conductance=9e-8 m3/(s Pa)")) == []
 
 
 def test_numbers_within_their_tolerances_fit_but_not_in_sum(case):
@@ -43,23 +51,6 @@ def test_numbers_within_their_tolerances_fit_but_not_in_sum(case):
         "brake.system.tank.volume is 2.9 L, the compensation is for 2 L within 50 %",
         "rig.caliper.load_friction is 8 %, the compensation is for 7.5 % within 7.5 %",
     ]
-
-
-def test_valves_that_differ_alike_count_once(case):
-    conductance = "vehicle.wheelsets.{}.wsp_valve.vent_conductance=3.5e-8 m3/(s Pa)"
-    assert told(case(*(conductance.format(n) for n in (2, 3, 4)))) == []
-
-
-def test_the_valve_of_the_module_with_the_caliper_does_not_matter(case):
-    """No compensation stands in for that one."""
-    assert told(case("vehicle.wheelsets.1.wsp_valve.vent_conductance=9e-8 m3/(s Pa)")) == []
-
-
-def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case):
-    scenario = case().scenario
-    model = scenario.rig.compensation_model.model_copy(update={"identified_for": None})
-    rig = scenario.rig.model_copy(update={"compensation_model": model})
-    assert rig_differences(scenario.model_copy(update={"rig": rig})) is None
 
 
 @pytest.mark.parametrize(
@@ -77,15 +68,12 @@ def test_a_compensation_whose_numbers_were_changed_is_not_known_to_fit(case, ove
     assert rig_differences(case(override, *numerator).scenario) is None
 
 
-def test_a_compensation_to_identify_has_tolerances_to_be_held_to(case, write):
-    """It was an internal error, after minutes of identification."""
+def test_a_compensation_to_identify_has_tolerances_and_no_profile_takes_the_id_of_its_check(case, write):
+    # It was an internal error, after minutes of identification.
     own = "schema: uictest/compensation/1\nname: own\nextends: identify\nidentified_for: null\n"
     write("own.yaml", own)
     with pytest.raises(ScenarioErrors, match="with `to_identify` has no `identified_for`"):
         case("rig.compensation_model=own.yaml")
-
-
-def test_no_profile_takes_the_id_of_a_check_of_the_rig(case, write):
     criterion = "{id: compensation-fits, layer: validity, measure: braking_distance, upper: 1 km}"
     write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria: [{criterion}]\n")
     with pytest.raises(ScenarioErrors, match="is in profile 'uictest-rig' as well"):

@@ -1,4 +1,4 @@
-"""Controllers from outside: what a scenario may write, and what the messages say about the rest."""
+"""Controllers from outside: what a scenario may write, what is said of the rest, and their names in ids."""
 
 import subprocess
 import sys
@@ -10,6 +10,8 @@ import pytest
 from uictest.controllers import shown_version
 from uictest.plans.scenario import fmu_description, load, values_in
 from uictest.plans.scenario.programs import version_in
+from uictest.plans.series import load_series
+from uictest.plans.sweeps import load_sweep
 
 from .conftest import refusals
 
@@ -118,10 +120,17 @@ def test_a_file_is_identified_and_not_run(loaded, write, head):
     assert expected.items() <= dict(values_in(case.scenario.controller)).items()
 
 
-def test_a_version_that_a_scenario_states_goes_before_that_of_the_file(loaded, write, head):
+def test_a_version_that_a_scenario_states_goes_before_that_of_the_file_which_may_have_none(
+    loaded, write, head, fmu
+):
     write("wsp.py", PROGRAM)
     (case,) = loaded(f"{head}controller: {{python: wsp.py, class: Wsp, version: 2.0-rc1}}\n")
     assert case.scenario.controller.version == "2.0-rc1"
+    whole = fmu('<fmiModelDescription version="1.4"/>')
+    for content, version in ((whole, "1.4"), (whole[:-9], None), (b"no archive", None)):
+        write("wsp.fmu", content)
+        (case,) = loaded(f"{head}controller: {{fmu: wsp.fmu}}\n")
+        assert case.scenario.controller.version == version
 
 
 @pytest.mark.parametrize(
@@ -166,14 +175,6 @@ def test_the_version_of_an_fmu_is_that_of_its_description(fmu, description, vers
     path = tmp_path / "wsp.fmu"
     path.write_bytes(fmu(description))
     assert fmu_description.read_description(path).version == version
-
-
-def test_a_file_that_states_no_version_has_none(loaded, write, head, fmu):
-    whole = fmu('<fmiModelDescription version="1.4"/>')
-    for content, version in ((whole, "1.4"), (whole[:-9], None), (b"no archive", None)):
-        write("wsp.fmu", content)
-        (case,) = loaded(f"{head}controller: {{fmu: wsp.fmu}}\n")
-        assert case.scenario.controller.version == version
 
 
 @pytest.mark.parametrize(
@@ -261,3 +262,72 @@ def test_a_description_that_swells_when_it_is_read_costs_a_bounded_time(loaded, 
     write("wsp.fmu", fmu(swelling))
     (case,) = loaded(f"{head}controller: {{fmu: wsp.fmu, parameters: {{gain: 1}}}}\n")
     assert case.scenario.controller.version is None
+
+
+BOTH = "matrix: {controller: [v23/wsp.yaml, v24/wsp.yaml]}\n"
+
+
+def _part(write, folder, program, name="name: wsp\n", more=""):
+    """Write a controller; return the digits of its program."""
+    program += "class Wsp: ...\n"
+    write(f"{folder}/wsp.py", program.encode())
+    write(f"{folder}/wsp.yaml", f"schema: uictest/controller/1\n{name}python: wsp.py\nclass: Wsp\n{more}")
+    return sha256(program.encode()).hexdigest()[:8]
+
+
+def _version(text):
+    return f"__version__ = {text!r}\n"
+
+
+@pytest.mark.parametrize(
+    ("versions", "suffixes"),
+    [
+        (("2.3", "2.4"), ("2.3", "2.4")),
+        (("2.4 beta/1", "2.4"), ("2.4beta1", "2.4")),
+        (("2.3", "2.3"), None),
+        (("2.3", ""), None),
+        (("2.4/", "2.4"), None),  # the same in the characters of a file name
+    ],
+)
+def test_programs_of_one_name_have_their_versions_or_digests(write, loaded, head, versions, suffixes):
+    digests = [
+        _part(write, folder, f"{_version(version)}# {folder}\n")
+        for folder, version in zip(("v23", "v24"), versions, strict=True)
+    ]
+    ids = [case.id for case in loaded(head + BOTH)]
+    assert ids == [f"stop[controller=wsp@{suffix}]" for suffix in suffixes or digests]
+
+
+def test_a_comma_list_series_and_sweeps_name_them_alike(write, head):
+    """`controller=v23/wsp.yaml,v24/wsp.yaml` was refused as the same id."""
+    _part(write, "v23", _version("2.3"))
+    _part(write, "v24", _version("2.4"))
+    expected = ["controller=wsp@2.3", "controller=wsp@2.4"]
+    stop = write("stop.yaml", head)
+    cases = load([stop], ["controller=v23/wsp.yaml,v24/wsp.yaml"])
+    assert [case.id for case in cases] == [f"stop[{each}]" for each in expected]
+    include = "include: [{controller: v23/wsp.yaml}, {controller: v24/wsp.yaml}]\n"
+    stops = "dry: {scenario: stop.yaml, set: {rail.condition: dry}}\nwet: {scenario: stop.yaml}\n"
+    series = write("a.series.yaml", f"schema: uictest/series/1\nname: a\n{stops}{include}")
+    assert [each.id for each in load_series(series)] == [f"a[{each}]" for each in expected]
+    vary = "vary: {matrix: {controller: [v23/wsp.yaml, v24/wsp.yaml]}}\n"
+    plan = load_sweep(
+        write("a.sweep.yaml", f"schema: uictest/scenario/1\nname: a\nextends: stop.yaml\n{vary}")
+    )
+    assert [row[0].label for row in plan.groups[0].rows] == ["wsp@2.3", "wsp@2.4"]
+
+
+def test_programs_in_ids_are_named_by_their_part_and_need_a_name_where_parameters_differ(
+    write, refused, head, loaded
+):
+    for folder, more in (("v23", "parameters: {a: 1}\n"), ("v24", "parameters: {a: 2}\n")):
+        _part(write, folder, "", more=f"{more}free_parameters: true\n")
+    (error,) = refused(head + BOTH)
+    assert "make the same case id" in error.message
+    assert "give each a `name`" in error.hint
+    _part(write, "v23", "", "name: ours\n")
+    _part(write, "v24", "")
+    cases = loaded(f"{head}matrix: {{controller: [v23/wsp.yaml, v24/wsp.yaml, threshold]}}\n")
+    assert [case.id for case in cases] == [
+        f"stop[controller={name}]" for name in ("ours", "wsp", "threshold")
+    ]

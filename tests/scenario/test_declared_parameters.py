@@ -65,21 +65,19 @@ def programs(write, fmu):
 @pytest.mark.usefixtures("programs")
 @pytest.mark.parametrize("controller", CONTROLLERS.values(), ids=CONTROLLERS.keys())
 class TestEveryKind:
-    def test_a_misspelt_name_is_an_error_with_the_nearest(self, refused, head, controller):
-        """A run with `uper_slide` passed with the default of the controller."""
+    def test_what_is_wrong_is_an_error_and_what_is_declared_is_accepted(
+        self, refused, head, controller, loaded
+    ):
+        # A run with `uper_slide` passed with the default of the controller.
         (error,) = refused(f"{head}controller: {{{controller}, parameters: {{uper_slide: 0.1}}}}\n")
         assert (error.key, error.line) == ("controller.parameters.uper_slide", 4)
         assert "no parameter uper_slide" in error.message
         assert "upper_slide" in error.hint
-
-    def test_a_value_outside_of_its_declaration_is_an_error(self, refused, head, controller):
         for given in ("1.5", "-0.1", "15 %", "true", "[0.1]"):
             (error,) = refused(f"{head}controller: {{{controller}, parameters: {{upper_slide: {given}}}}}\n")
             assert error.key == "controller.parameters.upper_slide"
             assert "out of range" in error.message or "expected a number" in error.message
             assert error.hint == ("accepted: 0 to 1" if "out of" in error.message else "write a bare number")
-
-    def test_values_within_it_are_accepted(self, loaded, head, controller):
         given = "{upper_slide: 1, cycles: 4, mode: slow}"
         (case,) = loaded(f"{head}controller: {{{controller}, parameters: {given}}}\n")
         program = case.scenario.controller.program
@@ -122,9 +120,13 @@ def test_defaults_are_handed_over_and_shown(loaded, head):
 
 
 @pytest.mark.usefixtures("programs")
-def test_an_fmu_keeps_its_own_start_values(loaded, head):
+def test_an_fmu_keeps_its_own_start_values_and_what_is_known_only_in_a_run_is_left_to_it(loaded, head):
     (case,) = loaded(f"{head}controller: {{fmu: two.fmu, parameters: {{cycles: 4}}}}\n")
     assert case.scenario.controller.parameters == {"cycles": 4}
+    (case,) = loaded(f"{head}controller: {{library: libwsp.so, parameters: {{kp: 1}}}}\n")
+    program = case.scenario.controller.program
+    assert program is not None
+    assert program.options["parameters"] == "asked"
 
 
 @pytest.mark.usefixtures("programs")
@@ -141,14 +143,6 @@ def test_where_nothing_is_declared_the_lines_to_write_are_shown(refused, loaded,
     assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}
     (case,) = loaded(f"{head}controller: {{{program}, {given}, free_parameters: true}}\n")
     assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}
-
-
-@pytest.mark.usefixtures("programs")
-def test_what_is_known_only_in_a_run_is_left_to_it(loaded, head):
-    (case,) = loaded(f"{head}controller: {{library: libwsp.so, parameters: {{kp: 1}}}}\n")
-    program = case.scenario.controller.program
-    assert program is not None
-    assert program.options["parameters"] == "asked"
 
 
 @pytest.mark.parametrize(
@@ -208,30 +202,25 @@ def test_of_a_large_file_only_the_declarations_are_parsed(write, head, refused, 
     assert max(parsed) < 100
 
 
-def test_bounds_of_an_fmu_that_are_no_numbers_bound_nothing(loaded, write, head, fmu):
+def test_what_an_fmu_does_not_state_bounds_nothing(loaded, write, head, fmu):
     write("two.fmu", fmu(FMI2.replace('min="0" max="1"', 'min="NaN" max="1"')))
     (case,) = loaded(f"{head}controller: {{fmu: two.fmu, parameters: {{upper_slide: 0.5}}}}\n")
     assert case.scenario.controller.parameters == {"upper_slide": 0.5}
-
-
-def test_an_fmu_that_cannot_be_read_is_left_to_whoever_loads_it(loaded, write, head, fmu):
     for content in (b"no archive", fmu("<fmiModel"), fmu("nothing")):
         write("wsp.fmu", content)
         assert loaded(f"{head}controller: {{fmu: wsp.fmu, parameters: {{kp: 1}}}}\n")
 
 
 @pytest.mark.usefixtures("programs")
-def test_a_part_that_extends_another_inherits_its_declarations(write, head, refused):
+def test_parameters_of_a_command_line_and_of_a_part_that_extends_another_are_checked_alike(
+    write, head, refused
+):
     write(
         "ours.yaml",
         f"schema: uictest/controller/1\nname: ours\nlibrary: libwsp.so\ndeclared_parameters: {LISTED}\n",
     )
     (error,) = refused(f"{head}controller: {{extends: ours.yaml, parameters: {{uper_slide: 0.1}}}}\n")
     assert error.hint == "did you mean upper_slide?"
-
-
-@pytest.mark.usefixtures("programs")
-def test_parameters_of_a_command_line_are_checked_alike(write):
     part = load_controller(
         str(write("ours.yaml", "schema: uictest/controller/1\npython: wsp.py\nclass: Wsp\n"))
     )

@@ -52,7 +52,7 @@ def test_a_case_has_the_values_of_its_id(loaded, head):
     assert (case.scenario.rail.friction, case.scenario.brake.command) == (0.1, 1.0)
 
 
-def test_a_key_below_a_reference_changes_the_part(loaded, head):
+def test_a_key_below_a_reference_changes_the_part_and_mappings_are_counted_or_named(loaded, head):
     cases = loaded(head + "matrix:\n  vehicle.body.mass: [30 t, 40 t]\n  vehicle: [crh380a, intercity-180]\n")
     assert ids(cases)[1] == "stop[mass=30t,vehicle=intercity-180]"
     assert [(case.scenario.vehicle.name, case.scenario.vehicle.body.mass) for case in cases] == [
@@ -61,9 +61,6 @@ def test_a_key_below_a_reference_changes_the_part(loaded, head):
         ("crh380a", 40_000.0),
         ("intercity-180", 40_000.0),
     ]
-
-
-def test_values_that_are_mappings_are_counted_or_named(loaded, head):
     cases = loaded(
         head + "matrix:\n  rail.friction: [0.1, {points: [{position: 0 m, friction: 0.2}]}]\n"
         "  vehicle: [{extends: crh380a, body: {mass: 40 t}}]\n"
@@ -72,21 +69,18 @@ def test_values_that_are_mappings_are_counted_or_named(loaded, head):
     assert cases[1].parameters["rail.friction"] == "{points: [{position: 0 m, friction: 0.2}]}"
 
 
-def test_the_short_key_of_one_entry_of_a_train_names_it():
-    """Every car's id has it: `controller` alone would say that of all cars."""
-    assert short_keys(["train.1.controller", "train.1.brake.command", "train.10.controller", "seed"]) == {
-        "train.1.controller": "train.1.controller",
-        "train.1.brake.command": "train.1.command",
-        "train.10.controller": "train.10.controller",
-        "seed": "seed",
-    }
-
-
-def test_short_keys_are_as_long_as_they_must_be():
+def test_short_keys_are_as_long_as_they_must_be_and_name_the_entry_of_a_train():
     assert short_keys(["vehicle.body.mass", "vehicle.bogie.mass", "mass.x", "seed"]) == {
         "vehicle.body.mass": "body.mass",
         "vehicle.bogie.mass": "bogie.mass",
         "mass.x": "x",
+        "seed": "seed",
+    }
+    # Every car's id has it: `controller` alone would say that of all cars.
+    assert short_keys(["train.1.controller", "train.1.brake.command", "train.10.controller", "seed"]) == {
+        "train.1.controller": "train.1.controller",
+        "train.1.brake.command": "train.1.command",
+        "train.10.controller": "train.10.controller",
         "seed": "seed",
     }
 

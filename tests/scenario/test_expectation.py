@@ -98,7 +98,7 @@ def test_an_expectation_comes_back_from_its_form_and_says_all_of_its_names(fail,
     assert str(expect).startswith("pass") == (another or outcome == "pass")
 
 
-def test_a_controller_that_is_set_is_allowed_what_is_named_and_the_own_one_keeps_it(loaded):
+def test_a_controller_that_is_set_or_compared_is_allowed_what_is_named_unless_it_never_acts(loaded):
     assert expectations(loaded(SLIP + FAIL, "controller=slip-band")) == [ALLOWED]
     assert expectations(loaded(SLIP + FAIL, "rail.friction=0.08", "repeat=2")) == [OWN]
     named = f"{SLIP}controller: slip-band\n{FAIL}"
@@ -106,28 +106,19 @@ def test_a_controller_that_is_set_is_allowed_what_is_named_and_the_own_one_keeps
     assert expectations(loaded(named, "controller=threshold,slip-band")) == [ALLOWED, ALLOWED]
     # Its own, set otherwise, is another one.
     assert expectations(loaded(SLIP + FAIL, "controller.deep_slide=40 %")) == [ALLOWED]
+    cases = loaded(SLIP + FAIL + "matrix: {controller: [threshold, slip-band]}\n")
+    assert expectations(cases) == [ALLOWED, ALLOWED]
+    bypassed = f"{SLIP}rig: {{wsp: bypassed}}\n{FAIL}"
+    assert expectations(loaded(bypassed, "controller=slip-band")) == [OWN]
+    assert expectations(loaded(f"{HEAD}expect: skipped\n", "controller=slip-band")) == [
+        Expectation("skipped")
+    ]
 
 
 @pytest.mark.parametrize("outcome", ["fail", "invalid"])
 def test_an_expectation_without_names_allows_another_controller_nothing(loaded, outcome):
     cases = loaded(f"{SLIP}expect: {outcome}\n", "controller=threshold,slip-band")
     assert expectations(cases) == [PASS, PASS]
-
-
-def test_skipped_is_expected_of_every_controller(loaded):
-    assert expectations(loaded(f"{HEAD}expect: skipped\n", "controller=slip-band")) == [
-        Expectation("skipped")
-    ]
-
-
-def test_where_controllers_are_compared_none_is_expected_to_fail(loaded):
-    cases = loaded(SLIP + FAIL + "matrix: {controller: [threshold, slip-band]}\n")
-    assert expectations(cases) == [ALLOWED, ALLOWED]
-
-
-def test_where_the_wsp_is_bypassed_no_controller_acts_and_the_expectation_stays(loaded):
-    bypassed = f"{SLIP}rig: {{wsp: bypassed}}\n{FAIL}"
-    assert expectations(loaded(bypassed, "controller=slip-band")) == [OWN]
 
 
 def test_who_sets_the_expectation_beside_the_controller_means_that_controller(loaded):
@@ -138,7 +129,7 @@ def test_who_sets_the_expectation_beside_the_controller_means_that_controller(lo
     assert expectations(cases) == [Expectation("fail")]
 
 
-def test_a_child_with_a_controller_of_its_own_inherits_an_allowance(write):
+def test_a_child_and_a_series_take_of_an_expectation_what_is_for_their_controller_and_criteria(write):
     write("parent.yaml", (SLIP + FAIL).replace("name: stop", "name: parent"))
     child = "schema: uictest/scenario/1\nname: child\nextends: parent.yaml\n"
 
@@ -150,6 +141,13 @@ def test_a_child_with_a_controller_of_its_own_inherits_an_allowance(write):
     assert expected("controller: slip-band\n") == [ALLOWED]
     assert expected(f"controller: slip-band\n{FAIL}") == [OWN]
     assert expected("controller: slip-band\nexpect: fail\n") == [Expectation("fail")]
+    write("dry.yaml", HEAD.replace("name: stop", "name: dry") + "criteria: uictest-stop\n")
+    write("stop.yaml", SLIP + BOTH)
+    text = (
+        "schema: uictest/series/1\nname: own\nset: {criteria: uictest-stop}\ndry: dry.yaml\nwet: stop.yaml\n"
+    )
+    (planned,) = series.load_series(write("own.series.yaml", text))
+    assert [stop.case.scenario.expect for stop in planned.stops] == [PASS, PASS]
 
 
 def test_a_controller_that_is_set_in_a_train_makes_an_allowance_of_what_its_cars_expect(write):
@@ -177,13 +175,3 @@ def test_what_is_expected_is_no_part_of_an_id_nor_a_parameter(loaded, refused):
     # Two cases that differ in nothing else are the same stop.
     (found,) = refused(SLIP, "expect=pass,fail")
     assert (found.key, found.message) == ("expect", "'fail' and 'pass' make the same case id")
-
-
-def test_a_series_takes_nothing_of_what_a_scenario_expects_whatever_criteria_it_sets(write):
-    write("dry.yaml", HEAD.replace("name: stop", "name: dry") + "criteria: uictest-stop\n")
-    write("stop.yaml", SLIP + BOTH)
-    text = (
-        "schema: uictest/series/1\nname: own\nset: {criteria: uictest-stop}\ndry: dry.yaml\nwet: stop.yaml\n"
-    )
-    (planned,) = series.load_series(write("own.series.yaml", text))
-    assert [stop.case.scenario.expect for stop in planned.stops] == [PASS, PASS]

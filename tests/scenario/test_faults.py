@@ -44,20 +44,7 @@ def test_what_is_wrong_is_said_at_its_key(head, refused, fault, key, message, hi
     assert hint in diagnostic.hint
 
 
-def test_a_pole_wheel_keeps_a_tooth(head, refused):
-    sensor = "rig: {sensors: {extends: pole-wheel, speed: {teeth: 60, missing_teeth: 5}}}\n"
-    fault = "{at: 3 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 55}"
-    [diagnostic] = refused(f"{head}{sensor}faults: [{fault}]\n")
-    assert diagnostic.message == "55 and 5 of 60 teeth: at least one must be left"
-
-
-def test_there_is_room_for_eight(head, loaded, refused):
-    assert loaded(f"{head}faults: [{', '.join([STUCK] * 8)}]\n")
-    [diagnostic] = refused(f"{head}faults: [{', '.join([STUCK] * 9)}]\n")
-    assert "at most 8" in diagnostic.message
-
-
-def test_lists_of_faults_name_their_cases(head, loaded):
+def test_lists_of_faults_name_their_cases_and_keys_inside_a_fault_vary(head, loaded):
     lost = "{at: 90 km/h, part: speed-sensor, kind: lost, wheelset: 1, until: 8 s, value: 5 km/h}"
     cases = loaded(f"{head}matrix: {{faults: [[], [{STUCK}], [{STUCK}, {lost}]]}}\n")
     assert [case.id for case in cases] == [
@@ -65,9 +52,6 @@ def test_lists_of_faults_name_their_cases(head, loaded):
         "stop[faults=speed-sensor-stuck-2-3s]",
         "stop[faults=speed-sensor-stuck-2-3s+speed-sensor-lost-5kmh-1-90kmh-8s]",
     ]
-
-
-def test_keys_inside_a_fault_vary(head, loaded):
     axes = "faults.0.at: [3 s, 60 km/h], faults.0.wheelset: [1, 2]"
     cases = loaded(f"{head}faults: [{STUCK}]\nmatrix: {{{axes}}}\n")
     found = [(case.scenario.faults[0].at.text, case.scenario.faults[0].wheelset) for case in cases]
@@ -76,9 +60,16 @@ def test_keys_inside_a_fault_vary(head, loaded):
     assert case.scenario.faults[0].label == "speed-sensor-lost-2"
 
 
-def test_a_key_beyond_the_list_names_what_there_is(head, refused):
+def test_what_no_list_and_no_pole_wheel_can_hold_is_refused(head, refused, loaded):
     [diagnostic] = refused(f"{head}faults: [{STUCK}]\nmatrix: {{faults.1.at: [3 s]}}\n")
     assert diagnostic.message == "'faults' is a list of one entry, 0; '1' is none"
+    assert loaded(f"{head}faults: [{', '.join([STUCK] * 8)}]\n")
+    [diagnostic] = refused(f"{head}faults: [{', '.join([STUCK] * 9)}]\n")
+    assert "at most 8" in diagnostic.message
+    sensor = "rig: {sensors: {extends: pole-wheel, speed: {teeth: 60, missing_teeth: 5}}}\n"
+    fault = "{at: 3 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 55}"
+    [diagnostic] = refused(f"{head}{sensor}faults: [{fault}]\n")
+    assert diagnostic.message == "55 and 5 of 60 teeth: at least one must be left"
 
 
 def test_effective_parameters_list_the_faults(head, loaded):

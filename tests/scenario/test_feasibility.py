@@ -69,14 +69,11 @@ def test_air_that_a_step_cannot_follow_is_rejected(case, changed, of):
         case(changed)
 
 
-def test_a_step_within_the_stated_limit_is_accepted(case):
+def test_a_step_within_the_stated_limit_is_accepted_and_a_piston_that_nothing_holds_rejected(case):
     tight = "brake.system.relay_valve.proportional_band=0.02 bar"
     with pytest.raises(ScenarioErrors, match=r"time_step must be at most 0\.2") as rejected:
         case(tight)
     assert "relay_valve" in str(rejected.value)
     assert air_limit(case(tight, "simulation.time_step=0.25 ms")).longest > 0.25e-3
-
-
-def test_a_piston_that_nothing_holds_is_rejected(case):
     with pytest.raises(ScenarioErrors, match="without spring rate and viscous friction"):
         case("rig.caliper.viscous_friction=0 N s/m", "rig.caliper.spring_rate=0 N/m")

@@ -1,4 +1,4 @@
-"""Cases as they come out."""
+"""Cases as they come out, also of stops that are repeated."""
 
 import hashlib
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
-from uictest.plans.scenario import Quantity, ScenarioErrors, load
+from uictest.plans.scenario import Quantity, ScenarioErrors, ShareOfStops, load
 from uictest.plans.scenario.parts.rail import FrictionProfile
 
 
@@ -41,25 +41,12 @@ def test_friction_is_a_number_or_points(loaded, head):
     assert profile.scenario.rail.highest_friction == 0.2
 
 
-def test_a_scenario_cannot_be_changed(loaded, head):
+def test_a_case_has_the_digest_of_its_bytes_cannot_be_changed_and_shares_its_parts(loaded, head):
     (case,) = loaded(head)
     with pytest.raises(Exception, match="frozen"):
         case.scenario.seed = 1
-
-
-def test_the_digest_is_that_of_the_bytes(loaded, head):
-    (case,) = loaded(head)
     assert case.inputs["stop.yaml"] == hashlib.sha256(head.encode()).hexdigest()
     assert case.path == Path("stop.yaml")
-
-
-def test_an_id_too_long_for_a_file_name_is_refused(refused, head):
-    (diagnostic,) = refused(head.replace("stop", "s" * 60) + f"matrix: {{title: [{'t' * 150}]}}\n")
-    assert (diagnostic.line, diagnostic.column) == (4, 18)
-    assert "longer than 200 characters" in diagnostic.message
-
-
-def test_a_part_is_made_once_for_all_cases(loaded, head):
     first, second = loaded(head + "matrix: {seed: [1, 2]}\n")
     assert first.scenario.vehicle is second.scenario.vehicle
 
@@ -83,3 +70,28 @@ def test_any_bytes_are_cases_or_scenario_errors(write, content):
         assert str(errors).replace("\n", "").isprintable()
     else:
         assert len({case.id for case in cases}) == len(cases) >= 1
+
+
+LAST = 2**32 - 1
+"""The largest seed."""
+
+
+@pytest.mark.parametrize(
+    ("text", "overrides", "repeat", "outcome"),
+    [
+        ("", [], 1, "all"),
+        ("repeat: 10\noutcome_of_repeats: median", [], 10, "median"),
+        ("repeat: 10", ["repeat=3"], 3, "all"),
+        (f"seed: {LAST - 9}\nrepeat: 10", [], 10, "all"),  # the last seed is the largest
+    ],
+)
+def test_one_stop_unless_the_file_says_more(loaded, head, text, overrides, repeat, outcome):
+    (case,) = loaded(head + text, *overrides)
+    assert (case.scenario.repeat, case.scenario.outcome_of_repeats) == (repeat, outcome)
+
+
+def test_a_share_of_the_stops(loaded, head):
+    (case,) = loaded(head + "repeat: 10\noutcome_of_repeats: {at_least: 90 %}")
+    share = case.scenario.outcome_of_repeats
+    assert isinstance(share, ShareOfStops)
+    assert share.at_least == pytest.approx(0.9)

@@ -248,10 +248,35 @@ MATRIX = [
         "'0.1' appears",
         "line 5",
     ),
+    (
+        HEAD.replace("stop", "s" * 60) + f"matrix: {{title: [»{'t' * 150}]}}\n",
+        *("name", "longer than 200 characters", ""),
+    ),
     ("»matrix:\n" + "".join(f"  a{n}: {[*range(10)]}\n" for n in range(6)), "", "1000000 cases", "sweep"),
 ]
 
-ADDED = [*TEXT, *HEADER, *KEYS, *QUANTITIES, *PARTS, *IMPOSSIBLE, *MATRIX]
+LAST = 2**32 - 1
+"""The largest seed."""
+REPEATS = [
+    ("repeat: »0", "repeat", "0 is out of range: it must be at least 1", ""),
+    ("repeat: »1001", "repeat", "1001 is out of range: it must be at most 1000", ""),
+    ("repeat: »2.5", "repeat", "expected a whole number, found a number ('2.5')", ""),
+    (
+        *(f"seed: {LAST - 5}\nrepeat: »10", "repeat"),
+        f"10 stops from seed {LAST - 5} end with seed {LAST + 4}; the largest is {LAST}",
+        f"take a seed of at most {LAST - 9}",
+    ),
+    *refusals("""\
+outcome_of_repeats: »90 %
+-> outcome_of_repeats | unknown value '90 %', expected one of all, median | write {at_least: 90 %} for
+outcome_of_repeats: {at_least: »0.9}
+-> outcome_of_repeats.at_least | '0.9' has no unit | write `90 %` (a bare 0.9 is ambiguous)
+outcome_of_repeats: {at_least: »0 %}
+-> outcome_of_repeats.at_least | 0 % is out of range: it must be above 0 % | accepted: above 0 % and
+"""),
+]
+
+ADDED = [*TEXT, *HEADER, *KEYS, *QUANTITIES, *PARTS, *IMPOSSIBLE, *REPEATS, *MATRIX]
 ROWS = [*WHOLE, *((each[0] if each[0].startswith("schema") else HEAD + each[0], *each[1:]) for each in ADDED)]
 
 
@@ -328,7 +353,9 @@ def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(refused):
     ]
 
 
-def test_too_many_cases_do_not_hide_wrong_values(refused):
+def test_every_wrong_value_of_an_axis_is_told_once_also_where_there_are_too_many_cases(refused):
+    diagnostics = refused(HEAD + "matrix: {rail.friction: [2, 3], seed: [1, 2, 3]}\n")
+    assert [(each.line, each.column) for each in diagnostics] == [(4, 26), (4, 29)]
     axes = "".join(
         f"  {key}: [{values}]\n"
         for key, values in (
@@ -340,19 +367,11 @@ def test_too_many_cases_do_not_hide_wrong_values(refused):
     assert [(each.line, each.key) for each in diagnostics] == [(4, ""), (6, "rail.friction")]
 
 
-def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(refused):
-    diagnostics = refused(HEAD + "matrix: {rail.friction: [2, 3], seed: [1, 2, 3]}\n")
-    assert [(each.line, each.column) for each in diagnostics] == [(4, 26), (4, 29)]
-
-
-def test_a_missing_file_is_told_without_a_line_of_it(tmp_path):
+def test_a_missing_file_and_the_errors_of_several_are_told_together(tmp_path, write):
     with pytest.raises(ScenarioErrors) as caught:
         load([tmp_path / "nothing.yaml"])
     assert "no such file" in caught.value.diagnostics[0].message
     assert caught.value.diagnostics[0].file.endswith("nothing.yaml")
-
-
-def test_errors_of_several_files_are_told_together(write):
     write("set/a.yaml", HEAD.replace("120 km/h", "120"))
     write("set/b.yaml", "- list\n")
     with pytest.raises(ScenarioErrors) as caught:
@@ -360,15 +379,12 @@ def test_errors_of_several_files_are_told_together(write):
     assert [each.file for each in caught.value.diagnostics] == ["set/a.yaml", "set/b.yaml"]
 
 
-def test_a_hint_shows_a_whole_example_or_none(refused):
-    """Half of a long value would be refused as well."""
+def test_a_hint_shows_a_whole_example_or_none(refused, head):
+    # Half of a long value would be refused as well.
     rows = ("description: a", "write `[a]`"), (f"description: {'a' * 90}", "")
     for axis, hint in rows:
         assert [each.hint for each in refused(f"{HEAD}matrix: {{{axis}}}\n")] == [hint]
     (error,) = refused(f"{HEAD}seed: {list(range(40))}\n")
     assert error.hint == "several values go under matrix"
-
-
-def test_a_whole_number_of_too_many_digits_is_not_told_to_lose_quotes(refused, head):
     (error,) = refused(f"{head}seed: {'9' * 40}\n")
     assert (error.key, error.hint) == ("seed", "")

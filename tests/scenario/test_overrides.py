@@ -14,13 +14,12 @@ def texts(argument):
     return [as_written(value) for value in parse_overrides([argument], None)[0].values]
 
 
-def test_one_value_replaces_the_axis_of_its_key(loaded, head):
+def test_one_value_replaces_the_axis_of_its_key_several_become_one_and_the_seed_option_replaces_every_seed(
+    loaded, head
+):
     cases = loaded(head + SWEPT, "rail.friction=0.15")
     assert [case.id for case in cases] == ["stop[seed=1]", "stop[seed=2]"]
     assert {case.scenario.rail.friction for case in cases} == {0.15}
-
-
-def test_several_values_become_an_axis(loaded, head):
     cases = loaded(head, "rail.friction=0.09,0.10", "brake.command=80 %, 100 %")
     assert [case.id for case in cases] == [
         "stop[friction=0.09,command=80]",
@@ -28,6 +27,11 @@ def test_several_values_become_an_axis(loaded, head):
         "stop[friction=0.10,command=80]",
         "stop[friction=0.10,command=100]",
     ]
+    cases = loaded(head + "matrix: {seed: [1, 2]}\n", seed=5)
+    assert [(case.id, case.scenario.seed) for case in cases] == [("stop", 5)]
+    (case,) = loaded(head, "vehicle.body.mass=40 t", "brake.system.tank.volume=3 L")
+    assert case.scenario.vehicle.body.mass == 40_000.0
+    assert case.scenario.brake.system.tank.volume == pytest.approx(0.003)
 
 
 def test_an_override_outranks_every_section(loaded, head):
@@ -36,17 +40,6 @@ def test_an_override_outranks_every_section(loaded, head):
     cases = loaded(head + sections + "exclude: [{seed: 1}]\n", "seed=7")
     assert [case.id for case in cases] == ["stop[command=80]", "stop[command=90]"]
     assert {case.scenario.seed for case in cases} == {7}
-
-
-def test_a_part_can_be_changed_inside(loaded, head):
-    (case,) = loaded(head, "vehicle.body.mass=40 t", "brake.system.tank.volume=3 L")
-    assert case.scenario.vehicle.body.mass == 40_000.0
-    assert case.scenario.brake.system.tank.volume == pytest.approx(0.003)
-
-
-def test_the_seed_option_replaces_every_seed(loaded, head):
-    cases = loaded(head + "matrix: {seed: [1, 2]}\n", seed=5)
-    assert [(case.id, case.scenario.seed) for case in cases] == [("stop", 5)]
 
 
 @pytest.mark.parametrize(
@@ -147,9 +140,13 @@ def test_another_rail_condition_does_not_keep_the_friction_of_the_file(refused, 
     assert "rail.friction stays '0.09'" in diagnostic.message or "stays '[0.09, 0.1]'" in diagnostic.message
 
 
-def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(refused, head):
+def test_a_matrix_of_rail_conditions_keeps_no_friction_and_other_numbers_may_change_alone(
+    refused, head, loaded
+):
     (diagnostic,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
     assert (diagnostic.line, diagnostic.column, diagnostic.key) == (5, 32, "rail.condition")
+    rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
+    assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)
 
 
 @pytest.mark.parametrize("more", [WET, WET_SWEPT, WET + "matrix: {rail.condition: [wet, dry]}\n"])
@@ -158,11 +155,6 @@ def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(loade
     given = loaded(head + more, "rail.condition=dry,wet", "rail.friction=0.2")
     assert [case.scenario.rail.highest_friction for case in own] == [0.55]
     assert [case.scenario.rail.friction for case in given] == [0.2, 0.2]
-
-
-def test_other_numbers_of_a_rail_condition_may_change_alone(loaded, head):
-    rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
-    assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)
 
 
 def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a_whole(loaded, refused, head):

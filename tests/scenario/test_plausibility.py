@@ -78,11 +78,6 @@ def test_nothing_that_ships_is_a_warning(figures, vehicle, brake, position):
     assert figures(*overrides).implausible == ()
 
 
-def test_a_wheel_of_one_wheelset_is_named_by_its_own_key(figures):
-    found = figures("vehicle.wheelsets.3.wheel_radius=0.86 m").implausible
-    assert [each.keys for each in found] == [("vehicle.wheelsets.3.wheel_radius",)]
-
-
 def test_the_span_is_wide_at_both_ends(figures):
     """650 mm is a locomotive's radius; a millimetre more is none."""
     wheel = (
@@ -108,6 +103,8 @@ def test_lambda_agrees_with_what_labs_ask_of_the_same_stop(figures):
     assert 440.0 < speed**2 / (2.0 * deceleration) + 0.5 * speed < 490.0
 
 
-def test_mass_and_axle_load_are_those_of_the_loaded_car(figures):
+def test_figures_are_those_of_the_loaded_car_and_of_single_wheelsets(figures):
     loaded = figures("vehicle.payload=10 t", "vehicle.load=full")
     assert (loaded.mass_t, loaded.axle_load_t) == (pytest.approx(55.0), pytest.approx(13.75))
+    found = figures("vehicle.wheelsets.3.wheel_radius=0.86 m").implausible
+    assert [each.keys for each in found] == [("vehicle.wheelsets.3.wheel_radius",)]

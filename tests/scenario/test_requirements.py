@@ -15,7 +15,7 @@ criteria:
 """
 
 
-def test_every_case_of_a_matrix_has_the_ids_of_its_scenario(loaded, head):
+def test_every_case_has_the_ids_of_its_scenario_and_may_have_a_test_case_of_its_own(loaded, head):
     cases = loaded(
         head + "requirements: [BR-WSP-12]\ntest_case: TC-7\nmatrix: {brake.command: [80 %, 90 %]}\n"
     )
@@ -23,9 +23,6 @@ def test_every_case_of_a_matrix_has_the_ids_of_its_scenario(loaded, head):
         (("BR-WSP-12",), "TC-7"),
         (("BR-WSP-12",), "TC-7"),
     ]
-
-
-def test_each_case_may_have_a_test_case_of_its_own(loaded, head):
     cases = loaded(head + "zip:\n  brake.command: [80 %, 90 %]\n  test_case: [TC-1, TC-2]\n")
     assert [case.scenario.test_case for case in cases] == ["TC-1", "TC-2"]
 
@@ -42,9 +39,13 @@ def test_a_child_inherits_the_requirements_of_its_parent_or_replaces_them(write,
     assert requirements == {"stop": ("BR-1",), "same": ("BR-1",), "other": ("BR-2",)}
 
 
-def test_the_requirements_of_criteria_are_those_of_the_scenario_too(loaded, head):
+def test_the_requirements_of_criteria_are_those_of_the_scenario_and_no_parameters(loaded, head):
     (case,) = loaded(head + "requirements: [C-3, A-1]\n" + CRITERIA)
     assert named_requirements(case.scenario) == ("C-3", "A-1", "B-2")
+    # A stop cannot depend on them, so a profile that only names other ones is not a changed profile.
+    (case,) = loaded(head + CRITERIA)
+    assert not [key for key, _ in values_in(case.scenario.criteria[0]) if "requirements" in key]
+    assert not [key for key, _ in values_in(case.scenario) if {"requirements", "test_case"} & set(key)]
 
 
 @pytest.mark.parametrize(
@@ -79,13 +80,6 @@ def test_any_ids_have_an_order_that_their_first_order_does_not_change(ids):
     ordered = in_order_of_ids(ids)
     assert set(ordered) == ids
     assert in_order_of_ids(reversed(ordered)) == ordered
-
-
-def test_requirements_are_no_parameters(loaded, head):
-    """A stop cannot depend on them, so a profile that only names other ones is not a changed profile."""
-    (case,) = loaded(head + CRITERIA)
-    assert not [key for key, _ in values_in(case.scenario.criteria[0]) if "requirements" in key]
-    assert not [key for key, _ in values_in(case.scenario) if {"requirements", "test_case"} & set(key)]
 
 
 def _read(write, name, content):
@@ -128,13 +122,9 @@ def test_an_error_in_a_list_names_its_place(write, name, content, place, message
     assert message in str(caught.value)
 
 
-def test_every_wrong_line_is_reported_at_once(write):
+def test_every_wrong_line_is_reported_at_once_and_a_missing_list_is_an_error_of_the_file(write):
     with pytest.raises(ScenarioErrors) as caught:
         _read(write, "all.txt", "a b\nBR-1\nc d\n")
     assert [each.line for each in caught.value.diagnostics] == [1, 3]
-
-
-def test_a_missing_list_is_an_error_of_the_file(write):
-    write("other.txt", "BR-1\n")
     with pytest.raises(ScenarioErrors, match="no such file"):
-        read_requirement_list(Path("all.txt"))
+        read_requirement_list(Path("other.txt"))

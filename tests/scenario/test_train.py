@@ -42,9 +42,15 @@ def test_every_car_is_a_case_with_what_it_has_of_its_own(cases):
     assert [case.parameters["car"] for case in loaded] == ["1", "2", "3"]
 
 
-def test_a_scenario_without_train_is_a_car_alone(cases):
+def test_a_scenario_without_train_is_a_car_alone_and_a_train_takes_the_place_of_a_vehicle(cases, write):
     (alone,) = cases("vehicle: crh380a\n")
     assert (alone.id, alone.train, alone.cars, alone.scenario.coupler) == ("short", None, (alone,), None)
+    write("parent.yaml", TRAIN.replace("short", "parent") + "vehicle: crh380a\n")
+    child = "schema: uictest/scenario/1\nname: child\nextends: parent.yaml\n"
+    first, _ = cases("train: [{count: 2}]\n", beside=child)
+    assert first.scenario.vehicle.name == "intercity-180"
+    (alone,) = cases("train: null\n", beside=child)
+    assert alone.scenario.vehicle.name == "crh380a"
 
 
 def test_lists_and_values_of_the_command_line_reach_single_cars(cases):
@@ -58,21 +64,6 @@ def test_lists_and_values_of_the_command_line_reach_single_cars(cases):
         True,
         False,
     ]
-
-
-def test_a_train_takes_the_place_of_the_vehicle_of_a_parent(write, cases):
-    write("parent.yaml", TRAIN.replace("short", "parent") + "vehicle: crh380a\n")
-    child = "schema: uictest/scenario/1\nname: child\nextends: parent.yaml\n"
-    first, _ = cases("train: [{count: 2}]\n", beside=child)
-    assert first.scenario.vehicle.name == "intercity-180"
-    (alone,) = cases("train: null\n", beside=child)
-    assert alone.scenario.vehicle.name == "crh380a"
-
-
-def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
-    second = cases("train: [{count: 3}]\n")[1].with_values(seed=7)
-    assert {case.scenario.seed for case in second.cars} == {7}
-    assert second.train.number == 2
 
 
 NO_TRAINS = refusals("""\
@@ -146,13 +137,16 @@ def test_what_is_no_train_is_said_at_its_place(cases, more, expected):
     assert [each for each in expected if each not in text] == []
 
 
-def test_every_car_names_what_all_of_its_train_was_read_from(write, cases):
+def test_every_car_names_what_all_of_its_train_was_read_from_and_changes_with_it(write, cases):
     vehicle = "schema: uictest/vehicle/1\nname: {name}\nextends: crh380a\n"
     for name in ("lead", "last"):
         write(f"{name}.yaml", vehicle.format(name=name))
     files = [list(case.inputs) for case in cases("train: [{vehicle: lead.yaml}, {vehicle: last.yaml}]\n")]
     assert files[0] == files[1]
     assert {name.rpartition("/")[2] for name in files[0]} >= {"train.yaml", "lead.yaml", "last.yaml"}
+    second = cases("train: [{count: 3}]\n")[1].with_values(seed=7)
+    assert {case.scenario.seed for case in second.cars} == {7}
+    assert second.train.number == 2
 
 
 OUTSIDE = "{controller: {python: %s, class: W}}"
@@ -170,15 +164,12 @@ def test_programs_of_a_train_lie_in_one_folder(write, cases):
         cases(f"train: [{{}}, {OUTSIDE % 'wsp.py'}, {OUTSIDE % 'other/wsp.py'}]\n")
 
 
-def test_a_program_at_a_socket_serves_one_car(cases):
+def test_a_program_at_a_socket_serves_one_car_and_asks_for_no_folder_beside_it(cases, write):
     at = "controller: {connect: 'tcp://127.0.0.1:%d'}"
     apart, twice = f"train: [{{{at % 1}}}, {{{at % 2}}}]\n", f"train: [{{{at % 1}, count: 2}}]\n"
     assert len(cases(apart)) == 2
     with pytest.raises(ScenarioErrors, match=r"127\.0\.0\.1:1 is the address of car 1, too"):
         cases(twice)
-
-
-def test_beside_a_program_at_a_socket_no_folder_is_asked_for(write, cases):
     write("wsp.py", "class W: ...\n")
     both = [OUTSIDE % "wsp.py", "{controller: {connect: 'tcp://127.0.0.1:1'}}"]
     for cars in (both, both[::-1]):

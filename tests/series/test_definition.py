@@ -32,13 +32,15 @@ def test_the_least_that_a_series_says_and_the_criteria_it_is_judged_by(load):
     assert [profile.name for profile in planned.criteria] == ["uictest-wsp"]
     assert (planned.file.valid_stops, planned.file.confidence) == (0.8, 0.95)
     assert [each.name for each in planned.stops[1].case.scenario.criteria] == ["uictest-stop", "uictest-wsp"]
+    # What a scenario expects of itself has no part in a series.
+    wet = Path("wet.yaml")
+    wet.write_text(f"{wet.read_text('utf-8')}expect: invalid\n", "utf-8")
+    (planned,) = load()
+    assert [str(stop.case.scenario.expect) for stop in planned.stops] == ["pass", "pass"]
 
 
 def test_values_of_an_entry_make_stops_whose_ids_name_them(load):
-    text = (
-        "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.09], brake.command: 100 %}}\n"
-    )
-    (planned,) = load(text)
+    (planned,) = load(WET % "set: {rail.friction: [0.07, 0.09], brake.command: 100 %}")
     assert ids(planned)[1:] == [
         ("wet", "wet[friction=0.07,command=100]"),
         ("wet", "wet[friction=0.09,command=100]"),
@@ -48,23 +50,10 @@ def test_values_of_an_entry_make_stops_whose_ids_name_them(load):
 
 def test_what_is_set_for_all_gives_way_to_an_entry_and_that_to_the_command_line(load):
     text = "repeat: 5\nset: {seed: 7}\ndry: {scenario: dry.yaml, repeat: 1, set: {seed: 8}}\nwet: wet.yaml\n"
-    (planned,) = load(text)
-    assert [(stop.case.scenario.repeat, stop.case.scenario.seed) for stop in planned.stops] == [
-        (1, 8),
-        (5, 7),
-    ]
-    (planned,) = load(text, "repeat=2", seed=9)
-    assert [(stop.case.scenario.repeat, stop.case.scenario.seed) for stop in planned.stops] == [
-        (2, 9),
-        (2, 9),
-    ]
-
-
-def test_what_a_scenario_expects_of_itself_has_no_part_in_a_series(load):
-    wet = Path("wet.yaml")
-    wet.write_text(f"{wet.read_text('utf-8')}expect: invalid\n", "utf-8")
-    (planned,) = load()
-    assert [str(stop.case.scenario.expect) for stop in planned.stops] == ["pass", "pass"]
+    for options, seed, stops_of in (((), None, [(1, 8), (5, 7)]), (("repeat=2",), 9, [(2, 9), (2, 9)])):
+        (planned,) = load(text, *options, seed=seed)
+        scenarios = [stop.case.scenario for stop in planned.stops]
+        assert [(each.repeat, each.seed) for each in scenarios] == stops_of
 
 
 def test_one_value_of_the_command_line_is_for_all_stops_also_in_place_of_an_axis(load):
@@ -81,25 +70,17 @@ def test_several_values_make_a_series_each_as_those_under_matrix_do(load):
         load(PAIR, "controller=threshold,slip-band"),
         load(f"{PAIR}matrix: {{controller: [threshold, slip-band]}}\n"),
     ):
-        assert [each.id for each in planned] == [
-            "campaign[controller=threshold]",
-            "campaign[controller=slip-band]",
-        ]
-        assert [each.parameters for each in planned] == [
-            {"controller": "threshold"},
-            {"controller": "slip-band"},
-        ]
-        assert [each.stops[1].case.scenario.controller.name for each in planned] == ["threshold", "slip-band"]
+        names = ["threshold", "slip-band"]
+        assert [each.id for each in planned] == [f"campaign[controller={name}]" for name in names]
+        assert [each.parameters for each in planned] == [{"controller": name} for name in names]
+        assert [each.stops[1].case.scenario.controller.name for each in planned] == names
 
 
 def test_two_speeds_have_a_dry_stop_each_and_stops_that_differ_are_run(load):
     speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
     (planned,) = load(f"dry: {{scenario: dry.yaml, {speeds}}}\nwet: {{scenario: wet.yaml, {speeds}}}\n")
     assert [round(stop.speed * 3.6) for stop in planned.stops] == [80, 120, 80, 120]
-    (planned,) = load(
-        "dry: dry.yaml\n"
-        "wet: {scenario: wet.yaml, repeat: 3, set: {seed: [0, 3], rail.friction: [0.08, 0.09]}}\n"
-    )
+    (planned,) = load(WET % "repeat: 3, set: {seed: [0, 3], rail.friction: [0.08, 0.09]}")
     assert len(planned.stops) == 5
 
 
@@ -122,6 +103,7 @@ def test_two_speeds_have_a_dry_stop_each_and_stops_that_differ_are_run(load):
         (WET % "recordings: [a.csv]", 4, "no such file: 'a.csv'"),
         (WET % "recordings: [wet.yaml], set: {seed: [1, 2]}", 4, "one stop, the scenario has 2 cases"),
         (WET % "set: {rail.friction: []}", 4, "an empty list makes no stop"),
+        ("dry: wet.yaml\nwet: dry.yaml\n", 3, "the rail of 'campaign.wet' is 'wet'"),
     ],
 )
 def test_what_makes_no_series_is_refused_at_its_place(load, text, line, message):
@@ -147,21 +129,20 @@ def test_a_file_of_another_kind_is_refused(write, text, message, hint):
     assert hint in diagnostic.hint
 
 
-BY_K_WET = """schema: uictest/criteria/1
-name: by-k-wet
-criteria:
-  - {id: k-wet, layer: requirement, scope: series, measure: k_wet, lower: 1}
-"""
+CRITERIA = "schema: uictest/criteria/1\nname: own\ncriteria: [{%s}]\n"
+K_WET = "id: k-wet, layer: requirement, scope: series, measure: k_wet, lower: 1"
+STANDSTILL = "id: standstill, layer: requirement, measure: standstill, lower: 1"
+LENGTH = "id: length, layer: requirement, measure: braking_distance, upper: %s m"
 
 
 def test_the_id_of_a_stop_names_the_series_and_has_room_for_so_many_characters(write):
     """That of a stop with the WSP bypassed, which is longer by a word, is cut."""
-    write("by-k-wet.yaml", BY_K_WET)
+    write("own.yaml", CRITERIA % K_WET)
     wet = f"wet-{'w' * 90}"
     write("wet.yaml", Path("wet.yaml").read_text("utf-8").replace("name: wet", f"name: {wet}"))
 
     def ids_of(name):
-        head = f"schema: uictest/series/1\nname: {name}\ncriteria: by-k-wet.yaml\n"
+        head = f"schema: uictest/series/1\nname: {name}\ncriteria: own.yaml\n"
         stops = "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.08, 0.09]}}\n"
         (planned,) = series.load_series(write("x.series.yaml", head + stops))
         return [stop.case.id for stop in planned.stops]
@@ -175,17 +156,17 @@ def test_the_id_of_a_stop_names_the_series_and_has_room_for_so_many_characters(w
         ids_of(f"{name}s")
 
 
-def test_a_criterion_in_both_profiles_is_refused(load, write):
-    own = """schema: uictest/criteria/1
-name: own
-criteria:
-  - {id: standstill, layer: requirement, measure: standstill, lower: 1}
-"""
-    write("own.yaml", own)
-    with pytest.raises(
-        ScenarioErrors, match="'standstill' is in the profiles of the series and of the scenario"
-    ):
+def test_a_criterion_in_both_profiles_is_refused_and_another_profile_of_the_same_name(load, write):
+    write("own.yaml", CRITERIA % STANDSTILL)
+    with pytest.raises(ScenarioErrors, match="'standstill' is in the profiles of the series and of the scen"):
         load(f"{PAIR}criteria: own.yaml\n")
+    write("own.yaml", CRITERIA % (LENGTH % 5))
+    write("other/own.yaml", CRITERIA % (LENGTH % 500))
+    text = f"{WET}criteria: own.yaml\n" % "set: {criteria: %s}"
+    with pytest.raises(ScenarioErrors, match="different profiles named 'own'"):
+        load(text % "other/own.yaml")
+    (planned,) = load(text % "own.yaml")
+    assert [profile.name for profile in planned.stops[1].case.scenario.criteria] == ["own"]
 
 
 def test_the_schema_accepts_what_is_accepted(write):
@@ -206,20 +187,6 @@ def test_the_schema_accepts_what_is_accepted(write):
     for document in ({"dry": "dry.yaml"}, {"dry": "dry.yaml", "wet": [1]}, {"dry": [], "wet": ["w.yaml"]}):
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate(head | document, schema)
-
-
-def test_a_profile_of_the_series_is_not_taken_for_another_one_of_the_same_name(load, write):
-    profile = (
-        "schema: uictest/criteria/1\nname: own\ncriteria:\n"
-        "  - {{id: length, layer: requirement, measure: braking_distance, upper: {upper}}}\n"
-    )
-    write("own.yaml", profile.format(upper="5 m"))
-    write("other/own.yaml", profile.format(upper="500 m"))
-    text = "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {criteria: %s}}\ncriteria: own.yaml\n"
-    with pytest.raises(ScenarioErrors, match="different profiles named 'own'"):
-        load(text % "other/own.yaml")
-    (planned,) = load(text % "own.yaml")
-    assert [profile.name for profile in planned.stops[1].case.scenario.criteria] == ["own"]
 
 
 @pytest.mark.parametrize(
@@ -270,11 +237,6 @@ def test_stops_are_counted_before_any_is_read(load, monkeypatch, text, overrides
     monkeypatch.setattr(loading, "read_stops", None)
     with pytest.raises(ScenarioErrors, match=re.escape(counted)):
         load(f"dry: dry.yaml\nwet: {{scenario: wet.yaml, {text % (list(range(400)), commands)}", *overrides)
-
-
-def test_the_reference_is_a_stop_on_dry_rail(load):
-    with pytest.raises(ScenarioErrors, match=r"the rail of 'campaign\.wet' is 'wet'"):
-        load("dry: wet.yaml\nwet: dry.yaml\n")
 
 
 @pytest.mark.parametrize("role", ["dry", "wet"])

@@ -12,11 +12,10 @@ from uictest.plans.scenario.yaml import parse_quantity
 from uictest.report.case_lines import series_line
 from uictest.report.series_report import count_sentences, series_verdict_sentence
 
-from .conftest import judge, no_test
+from .conftest import PAIR, judge, no_test
 
-THREE = (
-    "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.08, 0.09]}}\ncriteria: own.yaml\n"
-)
+THREE = "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.08, 0.09]}}\n"
+CRITERIA = "schema: uictest/criteria/1\nname: own\ncriteria: [{%s}]\n"
 OWN = """schema: uictest/criteria/1
 name: own
 criteria:
@@ -27,11 +26,21 @@ criteria:
 
 
 @pytest.fixture
-def planned(load, write):
+def judged_by(load, write):
+    """The series of a file that says this, judged by criteria in a file of their own."""
+
+    def read(own=OWN, text=PAIR):
+        write("own.yaml", own)
+        (one,) = load(f"{text}criteria: own.yaml\n")
+        return one
+
+    return read
+
+
+@pytest.fixture
+def planned(judged_by):
     """One dry stop and three wet ones, judged by three criteria."""
-    write("own.yaml", OWN)
-    (one,) = load(THREE)
-    return one
+    return judged_by(OWN, THREE)
 
 
 def verdicts(result):
@@ -63,23 +72,18 @@ def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missi
     assert "no 95 % interval: one dry stop shows no scatter" in series_verdict_sentence(alone, 0.95)
 
 
-def test_one_stop_from_each_speed_has_a_speed_that_decides(load, write):
-    write("own.yaml", OWN)
+def test_one_stop_from_each_speed_has_a_speed_that_decides(judged_by):
     speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
     dry, wet = (f"{{scenario: {role}.yaml, {speeds}}}" for role in ("dry", "wet"))
-    (one,) = load(f"dry: {dry}\nwet: {wet}\ncriteria: own.yaml\n")
+    one = judged_by(OWN, f"dry: {dry}\nwet: {wet}\n")
     # Deceleration distances of 160 and 400 m grow by 12.5 and by 25 %.
     k_wet = verdicts(judge(one, [220.0, 460.0, 240.0, 560.0]))["k-wet"]
     assert (k_wet.verdict.value, k_wet.speed_kmh) == (pytest.approx(0.8), 120.0)
 
 
-def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load, write):
-    share = "{id: locks, layer: requirement, scope: series, measure: worst_locked_time,"
-    write(
-        "own.yaml",
-        f"schema: uictest/criteria/1\nname: own\ncriteria: [{share} upper: 150 % of the dry stop}}]\n",
-    )
-    (one,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(judged_by):
+    share = "id: locks, layer: requirement, scope: series, measure: worst_locked_time"
+    one = judged_by(CRITERIA % f"{share}, upper: 150 % of the dry stop")
     locks = verdicts(judge(one, [460.0, 500.0]))["locks"].verdict
     assert (locks.status, locks.reason) == ("inconclusive", "the dry stops have no such number above zero")
 
@@ -175,28 +179,27 @@ def test_without_a_dry_stop_that_counts_nothing_is_decided_and_one_that_failed_t
     assert judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "error"}).outcome == "error"
 
 
-def test_a_criterion_of_stops_is_judged_by_the_verdicts_of_those_that_count(load, write):
-    over = _locks(load, judge, write, {})
+def test_a_criterion_of_stops_is_judged_by_the_verdicts_of_those_that_count(judged_by):
+    over = _locks(judged_by, {})
     assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("fail", 2.5, 2, 3)
-    over = _locks(load, judge, write, {2.5: "invalid"})
+    over = _locks(judged_by, {2.5: "invalid"})
     assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("pass", 0.5, 2, 2)
     # The stop counts, as it fails by something else.
-    over = _locks(load, judge, write, {2.5: "fail"}, {2.5: "inconclusive"})
+    over = _locks(judged_by, {2.5: "fail"}, {2.5: "inconclusive"})
     assert (over.verdict.status, over.kept, over.stops) == ("inconclusive", 2, 3)
     assert over.verdict.reason == "2 of 3 stops keep it"
-    one = _locks(load, judge, write, {2.5: "pass"}, {2.5: "not_applicable"})
+    one = _locks(judged_by, {2.5: "pass"}, {2.5: "not_applicable"})
     assert (one.verdict.status, one.kept, one.stops) == ("pass", 2, 2)
-    none = _locks(load, judge, write, {2.5: "pass"}, dict.fromkeys((0.0, 0.5, 2.5), "not_applicable"))
+    none = _locks(judged_by, {2.5: "pass"}, dict.fromkeys((0.0, 0.5, 2.5), "not_applicable"))
     assert (none.verdict.status, none.verdict.value) == ("not_applicable", None)
     assert none.verdict.reason == "it applies to none of the stops that count"
 
 
-def _locks(load, judge, write, outcomes, statuses=None):
+def _locks(judged_by, outcomes, statuses=None):
     """The verdict over a dry and two wet stops whose wheels lock for 0, 0.5 and 2.5 s."""
-    criterion = "{id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s}"
-    write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria: [{criterion}]\n")
+    criterion = "id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s"
     wet = "{scenario: wet.yaml, set: {rail.friction: [0.07, 0.08]}}"
-    (planned,) = load(f"dry: dry.yaml\nwet: {wet}\nvalid_stops: 50 %\ncriteria: own.yaml\n")
+    planned = judged_by(CRITERIA % criterion, f"dry: dry.yaml\nwet: {wet}\nvalid_stops: 50 %\n")
     cases = []
     for each, longest in zip(judge(planned, [460.0, 500.0, 510.0]).cases, (0.0, 0.5, 2.5), strict=True):
         status = (statuses or {}).get(longest, "pass" if longest <= 1.0 else "fail")
@@ -211,9 +214,8 @@ def _locks(load, judge, write, outcomes, statuses=None):
     return over
 
 
-def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(load, write):
-    write("own.yaml", OWN)
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(judged_by):
+    planned = judged_by()
     distances = [500.0, 505.0, 510.0, 515.0, 520.0, 525.0]
     result = judge(planned, [[459.0, 461.0], distances])
     estimate = result.measures["median_braking_distance"].estimate
@@ -230,45 +232,33 @@ def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(lo
     assert result.not_counted[0].reason == "initial speed is 115 km/h, nominal 120 +- 3 km/h"
 
 
-def test_a_verdict_names_the_requirements_of_its_criterion(load, write):
-    write("own.yaml", OWN.replace("lower: 0.80}", "lower: 0.80, requirements: [BR-WSP-12]}"))
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
-    assert verdicts(judge(planned, [460.0, 500.0]))["k-wet"].verdict.requirements == ("BR-WSP-12",)
-
-
-def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load):
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\nrequirements: [BR-9, BR-1]\ntest_case: WSP-TC-7\n")
-    document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0])])))
-    (read,) = series.series_results_of(document)
-    assert (read.requirements, read.test_case) == (("BR-9", "BR-1"), "WSP-TC-7")
-    assert document["series"][0]["requirements"] == ["BR-9", "BR-1"]
-
-
-def test_without_requirements_the_document_does_not_speak_of_them(planned):
+def test_the_requirements_of_a_series_and_of_its_criteria_are_kept_where_there_are_any(judged_by, planned):
     (form,) = series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])["series"]
     assert not {"requirements", "test_case"} & form.keys()
     assert not any("requirements" in each["verdict"] for each in form["criteria"])
+    own = OWN.replace("lower: 0.80}", "lower: 0.80, requirements: [BR-WSP-12]}")
+    named = judged_by(own, f"{PAIR}requirements: [BR-9, BR-1]\ntest_case: WSP-TC-7\n")
+    document = json.loads(json.dumps(series.series_document([judge(named, [460.0, 500.0])])))
+    (read,) = series.series_results_of(document)
+    assert (read.requirements, read.test_case) == (("BR-9", "BR-1"), "WSP-TC-7")
+    assert document["series"][0]["requirements"] == ["BR-9", "BR-1"]
+    assert verdicts(read)["k-wet"].verdict.requirements == ("BR-WSP-12",)
 
 
-def test_expected_failures_are_met(load, write):
-    write("own.yaml", OWN)
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\nexpect: fail\n")
+def test_expected_failures_are_met(judged_by):
+    planned = judged_by(OWN, f"{PAIR}expect: fail\n")
     assert judge(planned, [460.0, 900.0]).met
     assert not judge(planned, [460.0, 500.0]).met
 
 
-def test_a_series_is_judged_again_from_its_document(planned):
+def test_a_series_is_judged_again_from_its_document_but_not_by_another_series(planned, load):
     result = judge(_with_valid_share(planned, "60 %"), [460.0, 500.0, 520.0, 540.0], {540.0: "invalid"})
     document = json.loads(json.dumps(series.series_document([result])))
     (read,) = series.series_results_of(document)
     assert json.dumps(series.series_document([read])) == json.dumps(document)
     again = series.judge_series(_with_valid_share(planned, "60 %"), read.cases)
     assert json.dumps(series.series_document([again])) == json.dumps(document)
-
-
-def test_cases_of_another_series_are_not_judged(planned, load):
-    result = judge(planned, [460.0, 500.0, 520.0, 540.0])
-    (other,) = load("dry: dry.yaml\nwet: wet.yaml\n")
+    (other,) = load()
     with pytest.raises(ValueError, match="has no case"):
         series.judge_series(other, result.cases)
 
@@ -308,17 +298,14 @@ TWO_SPEEDS = "{role}: {{scenario: {role}.yaml, set: {{initial_speed: [80 km/h, 1
 
 
 @pytest.fixture
-def two_speeds(load, write):
+def two_speeds(judged_by):
     """Dry and wet stops from two speeds, the wet ones repeated, by a bound above and one below."""
-    own = "  - {{id: {id}, layer: requirement, scope: series, measure: median_braking_distance, {bound}}}\n"
-    bounds = ("upper: 130 % of the dry stop", "lower: 105 % of the dry stop")
-    criteria = "".join(
-        own.format(id=key, bound=bound) for key, bound in zip(("long", "short"), bounds, strict=True)
-    )
-    write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria:\n{criteria}")
+    own = "layer: requirement, scope: series, measure: median_braking_distance"
+    long = f"id: long, {own}, upper: 130 % of the dry stop"
+    short = f"id: short, {own}, lower: 105 % of the dry stop"
     wet = TWO_SPEEDS.format(role="wet", more=", repeat: 7")
-    (one,) = load(TWO_SPEEDS.format(role="dry", more=", repeat: 2") + wet + "criteria: own.yaml\n")
-    return one
+    dry = TWO_SPEEDS.format(role="dry", more=", repeat: 2")
+    return judged_by(CRITERIA % f"{long}}}, {{{short}", dry + wet)
 
 
 def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds):
@@ -328,18 +315,20 @@ def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds):
     assert result["short"].verdict.value == pytest.approx(101.0)
 
 
-def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds):
+def test_a_verdict_is_as_certain_as_its_least_certain_speed_and_a_miss_as_the_most_certain_one(two_speeds):
     # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
     scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
     long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [500.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
+    scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
+    long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [540.0] * 7]))["long"]
+    assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
 
 
-def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never_certain(load, write):
-    longest = "{id: longest, layer: requirement, scope: series, measure: worst_braking_distance,"
-    own = f"criteria: [{longest} upper: 125 % of the dry stop}}]\n"
-    write("own.yaml", f"schema: uictest/criteria/1\nname: own\n{own}")
-    (one,) = load("dry: {scenario: dry.yaml, repeat: 2}\nwet: wet.yaml\ncriteria: own.yaml\n")
+def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never_certain(judged_by):
+    longest = "id: longest, layer: requirement, scope: series, measure: worst_braking_distance"
+    own = CRITERIA % f"{longest}, upper: 125 % of the dry stop"
+    one = judged_by(own, "dry: {scenario: dry.yaml, repeat: 2}\nwet: wet.yaml\n")
 
     def certain(dry, wet):
         each = verdicts(judge(one, [dry, wet]))["longest"]
@@ -352,36 +341,25 @@ def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never
     assert certain([396.0, 404.0], 520.0) == ("fail", False)
 
 
-def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds):
-    scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
-    long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [540.0] * 7]))["long"]
-    assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
-
-
 BOTH_RAILS = """\
 dry: dry.yaml
 wet:
   - {scenario: wet.yaml, set: {rail.condition: wet-cleaning, rail.friction: 0.08, seed: [0, 1]}}
   - {scenario: wet.yaml, set: {seed: [2, 3]}}
-criteria: rails.yaml
 """
 RAILS = """\
 schema: uictest/criteria/1
 name: rails
 criteria:
   - {id: k-wet, layer: requirement, scope: series, measure: k_wet, lower: 0.8, applies: {rail_cleaned: true}}
-  - id: longest
-    layer: requirement
-    scope: series
-    measure: worst_braking_distance
-    upper: 150 % of the dry stop
+  - {id: longest, layer: requirement, scope: series, measure: worst_braking_distance,
+     upper: 150 % of the dry stop}
   - {id: share, layer: requirement, scope: series, measure: passing_share, lower: 50 %}
 """
 
 
-def test_stops_on_different_rails_are_judged_apart(write, load):
-    write("rails.yaml", RAILS)
-    (planned,) = load(BOTH_RAILS)
+def test_stops_on_different_rails_are_judged_apart(judged_by):
+    planned = judged_by(RAILS, BOTH_RAILS)
     result = judge(planned, [460.0, 500.0, 510.0, 900.0, 910.0], {900.0: "fail", 910.0: "fail"}, 480.0)
     verdicts = {each.verdict.id: each for each in result.criteria}
     assert (verdicts["k-wet"].verdict.status, verdicts["k-wet"].rail) == ("pass", "cleaned")
@@ -405,9 +383,8 @@ def test_stops_on_different_rails_are_judged_apart(write, load):
     assert "passing_share=" not in line
 
 
-def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load):
-    write("rails.yaml", RAILS)
-    (planned,) = load(BOTH_RAILS)
+def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(judged_by):
+    planned = judged_by(RAILS, BOTH_RAILS)
     assert [stop.role for stop in planned.stops] == ["dry", *["wet"] * 4, *["bypassed"] * 2]
     assert {stop.case.scenario.rig.wsp for stop in planned.stops[5:]} == {"bypassed"}
     # Wheels lock: that they miss the criteria is what is expected, and no reason to keep their recordings.
@@ -427,14 +404,11 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load
     assert read == better
 
 
-def test_a_criterion_that_no_wet_stop_is_for_decides_nothing_and_no_judgement_is_not_met(write, load):
-    write("rails.yaml", RAILS)
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
+def test_a_criterion_that_no_wet_stop_is_for_decides_nothing_and_no_judgement_is_not_met(judged_by):
+    planned = judged_by(RAILS)
     assert [stop.role for stop in planned.stops] == ["dry", "wet"]
     k_wet = judge(planned, [460.0, 500.0]).criteria[0].verdict
     assert (k_wet.status, k_wet.reason) == ("not_applicable", "it applies to none of the wet stops")
-    write("rails.yaml", "\n".join(RAILS.splitlines()[:4]))
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
-    result = judge(planned, [460.0, 500.0])
+    result = judge(judged_by("\n".join(RAILS.splitlines()[:4])), [460.0, 500.0])
     assert (result.outcome, result.met) == ("skipped", False)
     assert replace(result, expect=expectation_of("skipped")).met

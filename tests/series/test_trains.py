@@ -68,7 +68,7 @@ def refusal(read, *arguments):
     return [(each.key, each.message) for each in caught.value.diagnostics]
 
 
-def test_the_first_car_is_judged_unless_all_are(of_trains):
+def test_the_first_car_is_judged_unless_all_are_and_the_wsp_of_all_is_bypassed(of_trains):
     (first,) = of_trains(TRAIN)
     assert (first.id, first.parameters) == ("campaign[car=1]", {"car": "1"})
     assert {stop.case.train.number for stop in first.stops} == {1}
@@ -77,35 +77,23 @@ def test_the_first_car_is_judged_unless_all_are(of_trains):
     for number, each in enumerate(of_all, start=1):
         assert {stop.case.train.number for stop in each.stops} == {number}
         assert {len(stop.case.cars) for stop in each.stops} == {2}
-
-
-def test_series_of_a_matrix_have_their_cars_each(of_trains):
-    planned = of_trains(TRAIN, "cars: all\nmatrix: {controller: [threshold, slip-band]}\n")
-    assert [each.id for each in planned] == [
-        f"campaign[controller={name},car={car}]" for name in ("threshold", "slip-band") for car in (1, 2)
-    ]
-
-
-def test_the_wsp_of_every_car_is_bypassed_in_the_stop_that_k_wet_is_compared_with(of_trains):
-    (planned,) = of_trains(TRAIN)
-    _, wet, bypassed = planned.stops
+    names = ("dry", "wet", "bypassed.wet")
+    assert [case.id for case in of_all[1].cases] == [f"campaign[car=2].{name}" for name in names]
+    _, wet, bypassed = first.stops
     assert [car.scenario.rig.wsp for car in wet.case.cars] == ["active"] * 2
     assert [car.scenario.rig.wsp for car in bypassed.case.cars] == ["bypassed"] * 2
     assert bypassed.role == "bypassed"
 
 
-def test_stops_run_at_once_only_with_cars_of_their_own_train(of_trains):
+def test_series_of_a_matrix_have_their_cars_each_and_run_only_with_those_of_their_own_train(of_trains):
     planned = of_trains(TRAIN, "cars: all\nmatrix: {controller: [threshold, slip-band]}\n")
+    assert [each.id for each in planned] == [
+        f"campaign[controller={name},car={car}]" for name in ("threshold", "slip-band") for car in (1, 2)
+    ]
     trains = [[stop.case.train.train for stop in each.stops] for each in planned]
     threshold, slip_band = trains[0], trains[2]
     assert trains == [threshold, threshold, slip_band, slip_band]
     assert len({*threshold, *slip_band}) == 2 * 3
-
-
-def test_every_stop_says_once_which_car_is_judged(of_trains):
-    _, second = of_trains(TRAIN, "cars: all\n")
-    names = ("dry", "wet", "bypassed.wet")
-    assert [case.id for case in second.cases] == [f"campaign[car=2].{name}" for name in names]
 
 
 def test_every_train_is_simulated_once_for_the_series_of_all_cars(of_trains, monkeypatch):
@@ -183,8 +171,14 @@ def test_all_stops_are_of_trains_of_one_length(of_trains):
     ]
 
 
-def test_cars_are_only_of_trains(of_trains):
+def test_cars_are_only_of_trains_and_recordings_of_one_car(of_trains, write):
     assert refusal(of_trains, "vehicle: crh380a", "cars: all\n") == [("cars", "the stops are of cars alone")]
+    (planned,) = of_trains(TRAIN)
+    recorded = "dry: {scenario: dry.yaml, recordings: [a.csv]}\nwet: wet.yaml\n"
+    write("recorded.series.yaml", f"schema: uictest/series/1\nname: recorded\n{recorded}")
+    assert refusal(series.load_series, planned.path.with_name("recorded.series.yaml")) == [
+        ("dry", "'dry.yaml' is a train; recordings are of one car")
+    ]
 
 
 def test_how_firm_verdicts_are_is_said_of_the_car_that_is_judged(of_trains, monkeypatch):
@@ -199,12 +193,3 @@ def test_how_firm_verdicts_are_is_said_of_the_car_that_is_judged(of_trains, monk
         assert firm.nominal == result.outcome
         verdicts = [(own.verdict.id, relative_margin(own.verdict)) for own in result.criteria]
         assert [(own.criterion, own.margin) for own in firm.criteria] == verdicts
-
-
-def test_recordings_are_of_one_car(of_trains, write):
-    (planned,) = of_trains(TRAIN)
-    recorded = "dry: {scenario: dry.yaml, recordings: [a.csv]}\nwet: wet.yaml\n"
-    write("recorded.series.yaml", f"schema: uictest/series/1\nname: recorded\n{recorded}")
-    assert refusal(series.load_series, planned.path.with_name("recorded.series.yaml")) == [
-        ("dry", "'dry.yaml' is a train; recordings are of one car")
-    ]

@@ -84,13 +84,13 @@ def test_the_share_below_the_largest_extension_holds_beside_dry_stops_that_scatt
 )
 def test_one_dry_stop_shows_no_scatter_nor_do_few_equal_ones_and_many_scatter_by_nothing(name):
     draw = np.random.default_rng(9)
-    stops = drawn(draw, 1, 8, 4.0, 4.0, 1.2)
+    few_stops = drawn(draw, 1, 8, 4.0, 4.0, 1.2)
     measure = SERIES_MEASURES[name]
     for count in (1, 2, 4):
-        few = measure.of_series([SpeedStops(30.0, stops.dry * count, stops.wet)], 0.95).estimate
+        few = measure.of_series([SpeedStops(30.0, few_stops.dry * count, few_stops.wet)], 0.95).estimate
         assert all(map(math.isnan, (few.low, few.high, few.covered)))
         assert not few.dry_scatter
-    exact = measure.of_series([SpeedStops(30.0, stops.dry * 5, stops.wet)], 0.95).estimate
+    exact = measure.of_series([SpeedStops(30.0, few_stops.dry * 5, few_stops.wet)], 0.95).estimate
     assert exact.value == pytest.approx(few.value)
     assert exact.dry_scatter
     if name == "stopping_distance_extension":
@@ -99,35 +99,30 @@ def test_one_dry_stop_shows_no_scatter_nor_do_few_equal_ones_and_many_scatter_by
 
 
 def test_figures_in_percent_of_the_dry_stop_have_the_same_interval():
-    stops = drawn(np.random.default_rng(10), 4, 9, 3.0, 3.0, 1.2)
-    percent = SERIES_MEASURES["median_braking_distance"].percent_of_dry([stops], 0.95).estimate
-    increase = SERIES_MEASURES["stopping_distance_extension"].of_series([stops], 0.95).estimate
+    campaign = drawn(np.random.default_rng(10), 4, 9, 3.0, 3.0, 1.2)
+    percent = SERIES_MEASURES["median_braking_distance"].percent_of_dry([campaign], 0.95).estimate
+    increase = SERIES_MEASURES["stopping_distance_extension"].of_series([campaign], 0.95).estimate
     assert (percent.low, percent.high) == pytest.approx((100.0 + increase.low, 100.0 + increase.high))
     assert percent.dry_stops == increase.dry_stops == 4
+
+
+def stops(name, values):
+    of_all = dict.fromkeys(_DISTANCES, 500.0)
+    return tuple(CountedStop(of_all | {name: value}, (), passed=True) for value in values)
 
 
 @pytest.mark.parametrize("dry", [(0.0, 0.0), (-1.0, -2.0), (math.inf, 4.0), (math.nan, 4.0)])
 def test_a_share_of_what_is_not_above_zero_is_none(dry):
     """A reservoir margin of -0.4 bar would be four times that of -0.1 bar, and pass a lower limit."""
-
-    def stops(values):
-        return tuple(CountedStop({"reservoir_margin_bar": own}, (), passed=True) for own in values)
-
-    value = SERIES_MEASURES["worst_reservoir_margin"].percent_of_dry(
-        [SpeedStops(30.0, stops(dry), stops((-4.0, 2.0)))], 0.95
-    )
+    margins = (stops("reservoir_margin_bar", values) for values in (dry, (-4.0, 2.0)))
+    value = SERIES_MEASURES["worst_reservoir_margin"].percent_of_dry([SpeedStops(30.0, *margins)], 0.95)
     assert value.unavailable_reason == "the dry stops have no such number above zero"
 
 
 def test_k_wet_of_no_distance_is_none():
-    def stops(values):
-        of_all = dict.fromkeys(_DISTANCES, 500.0)
-        return tuple(
-            CountedStop(of_all | {"deceleration_distance_m": own}, (), passed=True) for own in values
-        )
-
     def of(wet):
-        return SERIES_MEASURES["k_wet"].of_speed(SpeedStops(30.0, stops((400.0, 410.0)), stops(wet)), 0.95)
+        distances = (stops("deceleration_distance_m", values) for values in ((400.0, 410.0), wet))
+        return SERIES_MEASURES["k_wet"].of_speed(SpeedStops(30.0, *distances), 0.95)
 
     assert of((0.0, 0.0)).unavailable_reason == "the wet stops have no such number above zero"
     assert of((0.0, 810.0)).estimate.value == pytest.approx(1.0)

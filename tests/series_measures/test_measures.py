@@ -11,7 +11,18 @@ from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStop
 from uictest.core.series_measures.measure import largest_of, mean_of, median_of, share_of, smallest_of
 from uictest.core.units import KINDS
 
-from .conftest import make_speed, make_stop
+
+def make_stop(distance=460.0, *, passed=True, locked=0.0, **columns):
+    """A stop with a braking distance, a deceleration distance 60 m shorter, and whatever else is given."""
+    own = {"braking_distance_m": distance, "corrected_distance_m": distance}
+    measures = own | {"deceleration_distance_m": distance - 60.0} | columns
+    wheelsets = tuple({"locked_time_s": time} for time in (0.0, locked, 0.0, 0.0))
+    return CountedStop(measures, wheelsets, passed)
+
+
+def make_speed(dry, wet, speed=120.0 / 3.6):
+    """Dry and wet stops by their braking distances."""
+    return SpeedStops(speed, tuple(map(make_stop, dry)), tuple(map(make_stop, wet)))
 
 
 def test_the_interval_of_the_median_has_known_ranks_and_holds_it_in_samples():
@@ -32,12 +43,6 @@ def test_a_share_has_the_interval_of_clopper_and_pearson():
     assert (estimate.value, estimate.low, estimate.high) == pytest.approx((60.0, 26.24, 87.84), abs=5e-3)
 
 
-def test_the_largest_of_59_covers_95_percent_of_all_stops():
-    assert largest_of([0.0] * 59, 0.95).covered >= 0.95
-    assert largest_of([0.0] * 58, 0.95).covered < 0.95
-    assert math.isnan(largest_of([1.0, 2.0], 0.95).low)
-
-
 @given(strategies.lists(strategies.floats(-1e6, 1e6), min_size=1, max_size=40))
 def test_every_value_lies_within_the_spread_and_its_interval(values):
     for statistic in (median_of, mean_of, largest_of, smallest_of):
@@ -48,28 +53,27 @@ def test_every_value_lies_within_the_spread_and_its_interval(values):
         assert not estimate.value > estimate.high + air
 
 
-def test_a_falling_function_turns_the_interval_around():
+def test_the_largest_of_59_covers_95_percent_of_all_stops_and_a_falling_function_turns_intervals():
     estimate = mean_of([1.0, 2.0, 3.0], 0.95).mapped(lambda value: -value)
     assert estimate.low < estimate.value == -2.0 < estimate.high
     assert (estimate.smallest, estimate.largest) == (-3.0, -1.0)
+    assert largest_of([0.0] * 59, 0.95).covered >= 0.95
+    assert largest_of([0.0] * 58, 0.95).covered < 0.95
+    assert math.isnan(largest_of([1.0, 2.0], 0.95).low)
 
 
 K_WET = SERIES_MEASURES["k_wet"]
 INCREASE = SERIES_MEASURES["deceleration_distance_extension"]
 
 
-def stop(deceleration_distance):
-    whole = {"corrected_distance_m": 500.0, "braking_distance_m": 500.0}
-    return CountedStop(whole | {"deceleration_distance_m": deceleration_distance}, (), passed=True)
-
-
 def speed(dry, wet):
-    return SpeedStops(30.0, tuple(map(stop, dry)), tuple(map(stop, wet)))
+    """Dry and wet stops by their deceleration distances."""
+    dry, wet = (tuple(make_stop(deceleration_distance_m=each) for each in of) for of in (dry, wet))
+    return SpeedStops(30.0, dry, wet)
 
 
 def value(measure, *speeds):
-    estimate = measure.of_series(speeds, 0.95).estimate
-    return float(estimate.value)
+    return float(measure.of_series(speeds, 0.95).estimate.value)
 
 
 @pytest.mark.parametrize(
@@ -111,19 +115,13 @@ def test_without_a_dry_stop_or_with_an_interval_below_zero_there_is_none():
 
 
 @pytest.mark.parametrize("name", SERIES_MEASURES)
-def test_a_measure_has_a_unit_of_its_kind(name):
+def test_a_measure_has_a_unit_of_its_kind_and_reads_columns_that_results_have(name):
     measure = SERIES_MEASURES[name]
     kind = KINDS[measure.kind]
     assert measure.unit in kind.units or (kind.bare and measure.unit == "1")
-
-
-@pytest.mark.parametrize("name", SERIES_MEASURES)
-def test_a_measure_reads_columns_that_results_have(name):
-    stop = CountedStop(
-        dict.fromkeys(STOP_COLUMNS, 1.0), (dict.fromkeys(WHEELSET_COLUMNS, 1.0),) * 4, passed=True
-    )
-    value = SERIES_MEASURES[name].of_series([SpeedStops(30.0, (stop,), (stop,))], 0.95)
-    assert value.estimate.stops == 1
+    wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, 1.0),) * 4
+    stop = CountedStop(dict.fromkeys(STOP_COLUMNS, 1.0), wheelsets, passed=True)
+    assert measure.of_series([SpeedStops(30.0, (stop,), (stop,))], 0.95).estimate.stops == 1
 
 
 def test_the_value_of_a_series_is_that_of_its_worst_speed_and_a_share_of_all_stops():
@@ -148,33 +146,29 @@ def test_no_measure_pools_stops_on_different_rails():
         SpeedStops(30.0, (), (kept, lost), "uncleaned"),
     ]
     share = SERIES_MEASURES["passing_share"]
-    value = share.of_series(speeds, 0.95).estimate
-    assert (value.value, value.stops) == (50.0, 2)
-    assert share.of_series(speeds[:2], 0.95).estimate.value == 90.0
+    worst = share.of_series(speeds, 0.95).estimate
+    assert (worst.value, worst.stops) == (50.0, 2)
+    assert value(share, *speeds[:2]) == 90.0
     for measure in SERIES_MEASURES.values():
         assert all(len({each.rail for each in group}) == 1 for group in measure.groups(speeds))
 
 
 def test_the_most_locked_wheelset_and_the_smallest_margin_speak_for_stops():
     speed = SpeedStops(30.0, (), tuple(make_stop(locked=time) for time in (0.2, 3.0, 0.4)))
-    median, worst = (
-        SERIES_MEASURES[f"{name}_locked_time"].of_series([speed], 0.95).estimate
-        for name in ("median", "worst")
-    )
-    assert (median.value, worst.value) == (0.4, 3.0)
+    locked = [SERIES_MEASURES[f"{name}_locked_time"] for name in ("median", "worst")]
+    assert [value(measure, speed) for measure in locked] == [0.4, 3.0]
     speed = SpeedStops(30.0, (), tuple(make_stop(reservoir_margin_bar=bar) for bar in (1.2, 0.4, 0.9)))
-    worst = SERIES_MEASURES["worst_reservoir_margin"].of_series([speed], 0.95).estimate
-    assert worst.value == 0.4
+    assert value(SERIES_MEASURES["worst_reservoir_margin"], speed) == 0.4
     stop = make_stop(deceleration_bogie_1_mps2=1.1, deceleration_bogie_2_mps2=0.9)
-    value = SERIES_MEASURES["median_bogie_imbalance"].of_series([SpeedStops(30.0, (), (stop,))], 0.95)
-    assert value.estimate.value == pytest.approx(20.0)
+    imbalance = value(SERIES_MEASURES["median_bogie_imbalance"], SpeedStops(30.0, (), (stop,)))
+    assert imbalance == pytest.approx(20.0)
 
 
 def test_a_stop_or_a_speed_without_the_number_leaves_the_measure_open():
     speed = SpeedStops(30.0, (), (make_stop(reservoir_margin_bar=1.0), make_stop()))
-    value = SERIES_MEASURES["worst_reservoir_margin"].of_series([speed], 0.95)
-    assert value.estimate is None
-    assert value.unavailable_reason == "1 of 2 wet stops have no such number"
+    margin = SERIES_MEASURES["worst_reservoir_margin"].of_series([speed], 0.95)
+    assert margin.estimate is None
+    assert margin.unavailable_reason == "1 of 2 wet stops have no such number"
     speeds = [make_speed([460.0], [480.0]), make_speed([], [230.0])]
     assert SERIES_MEASURES["k_wet"].of_series(speeds, 0.95).estimate is None
 

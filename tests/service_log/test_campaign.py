@@ -1,4 +1,4 @@
-"""What the stops of a log of a night show together: dry and wet ones, and the friction of each."""
+"""What the stops of a log show together: dry and wet ones, the friction of each, the worst and where."""
 
 import csv
 import json
@@ -8,6 +8,7 @@ from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import uictest
@@ -16,7 +17,7 @@ from uictest.analysis.logged_stops import StopsTogether
 from uictest.cli.entry import execute
 from uictest.core.recording import Recording, read_parquet
 from uictest.recorded.field_data import judge_recording, load_map, stop_in
-from uictest.recorded.service_log import LoggedEvent, find_stops, write_stops
+from uictest.recorded.service_log import LoggedEvent, clock_text, find_stops, write_stops
 
 MAP = load_map("uictest")[0]
 EVENT = LoggedEvent(Path("log.parquet"), 5, 0.05, 1.0, 20.0, 0.0, (0, 100), begins_braked=False)
@@ -72,24 +73,21 @@ def test_a_rail_that_is_as_good_has_a_k_wet_of_one_from_whatever_speed(tmp_path)
     assert float(row["value"]) == pytest.approx(0.0, abs=2.0), "%; 10 % by the squares of the speeds"
 
 
-def test_every_format_has_the_campaign(night):
+def test_every_format_has_the_campaign_and_links_the_stops_that_a_table_names(night):
     results = json.loads((night / "results.json").read_text("utf-8"))
     names = [table["name"] for table in results["campaign"]["tables"]]
     assert names == ["stops", "dry_stops", "friction", "wet_series", "wet_stops"]
     (night / "index.html").unlink()
     assert execute(["report", str(night), "--format", "html,md,xlsx"]) == 0
-    for name in ("index.html", "summary.md"):
-        assert "Friction of the rail, stop by stop" in (night / name).read_text("utf-8")
+    page, summary = ((night / name).read_text("utf-8") for name in ("index.html", "summary.md"))
+    assert "Friction of the rail, stop by stop" in page
+    assert "Friction of the rail, stop by stop" in summary
+    assert re.search(r'<td class="why"><a href="#[^"]+">stop-0004</a></td>', page)
     with ZipFile(night / "report.xlsx") as book:
         assert "campaign_wet_series" in book.read("xl/workbook.xml").decode()
 
 
-def test_the_stops_that_a_table_names_are_linked(night):
-    page = (night / "index.html").read_text("utf-8")
-    assert re.search(r'<td class="why"><a href="#[^"]+">stop-0004</a></td>', page)
-
-
-def test_stops_named_as_dry_are_judged_on_a_dry_rail_and_make_the_reference(night):
+def test_stops_named_as_dry_are_judged_on_a_dry_rail_and_make_the_reference_of_k_wet(night):
     results = json.loads((night / "results.json").read_text("utf-8"))
     rails = [each["settings"]["rail"] for each in results["subjects"].values()]
     assert rails == ["dry"] * 3 + ["wet"] * 11
@@ -98,31 +96,15 @@ def test_stops_named_as_dry_are_judged_on_a_dry_rail_and_make_the_reference(nigh
     wet = rows(night, "wet_stops")
     assert len(wet) == 11
     assert all(float(row["extension_percent"]) > 0.0 for row in wet)
-
-
-def test_k_wet_is_that_of_the_stops(night):
-    measures = {
-        case["id"]: case["measures"]
-        for case in json.loads((night / "results.json").read_text("utf-8"))["cases"]
-    }
-    names = [f"stop-{k:04d}" for k in range(1, 15)]
-    speeds = [3.6 * read_parquet(night / "recordings" / f"{name}.parquet")["speed"][0] for name in names]
-    lengths = [
-        measures[name]["deceleration_distance_m"] * (80.0 / speed) ** 2
-        for name, speed in zip(names, speeds, strict=True)
-    ]
+    measures = {case["id"]: case["measures"] for case in results["cases"]}
+    lengths = []
+    for name in (f"stop-{k:04d}" for k in range(1, 15)):
+        speed = 3.6 * read_parquet(night / "recordings" / f"{name}.parquet")["speed"][0]
+        lengths.append(measures[name]["deceleration_distance_m"] * (80.0 / speed) ** 2)
     increase = 100.0 * (np.mean(lengths[3:]) / np.mean(lengths[:3]) - 1.0)
     (row,) = [each for each in rows(night, "wet_series") if each["measure"] == "k_wet"]
     assert float(row["value"]) == pytest.approx(100.0 / (100.0 + increase), rel=1e-9)
     assert float(row["low"]) < float(row["value"]) < float(row["high"])
-
-
-def test_a_selection_of_dry_stops_that_is_empty_is_refused(tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    logs.write_log([logs.simulated(logs.DRY, 40.0, 1)], tmp_path / "night.parquet")
-    (tmp_path / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
-    assert execute(["log", "night.parquet", "--scenario", "night.yaml", "--dry", "stop-0007"]) == 4
-    assert "stop-0007: selects no stop" in capsys.readouterr().err
 
 
 def test_logs_of_one_name_are_told_apart_by_their_folder(tmp_path, monkeypatch):
@@ -149,6 +131,9 @@ def test_a_log_without_a_stop_leaves_reports_that_say_so(tmp_path, capsys, monke
         stop = Recording({**stop.channels, **released}, stop.units)
     logs.write_log([stop], tmp_path / "night.parquet")
     (tmp_path / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    if braked:
+        assert execute(["log", "night.parquet", "--scenario", "night.yaml", "--dry", "stop-0007"]) == 4
+        assert "stop-0007: selects no stop" in capsys.readouterr().err
     options = ["--scenario", "night.yaml", "--from", "50 km/h", "--dry", "stop-0001", "--junitxml", "j.xml"]
     assert execute(["log", "night.parquet", *options, "-q"]) == 5
     reason = "1 application of the brake passed over" if braked else "the brake is never applied"
@@ -193,7 +178,7 @@ def shown_by(stop, case):
     result, _ = judge_recording(case, stop)
     together = StopsTogether({case.id: EVENT}, (), vehicle_known=True)
     together.add(case, stop, result)
-    return together.campaign([result])
+    return {table.name: table.table.rows for table in together.campaign([result]).tables}
 
 
 @pytest.mark.parametrize(
@@ -207,22 +192,100 @@ def test_whatever_a_record_lacks_the_rest_is_said(recorded, lacking):
     stop, case = recorded
     kept = {name: own for name, own in stop.recording.channels.items() if not name.startswith(lacking)}
     recording = Recording(kept, {name: stop.recording.units[name] for name in kept})
-    names = {table.name for table in shown_by(replace(stop, recording=recording), case).tables}
-    assert {"friction", "wet_stops"} <= names
+    assert {"friction", "wet_stops"} <= shown_by(replace(stop, recording=recording), case).keys()
 
 
-def test_the_friction_of_a_stop_stands_beside_its_place_on_the_line(recorded):
+def test_the_friction_of_a_stop_stands_beside_its_place_and_a_few_samples_have_none(recorded):
     stop, case = recorded
-    (table,) = [
-        each for each in shown_by(replace(stop, position=12_345.0), case).tables if each.name == "friction"
-    ]
-    assert [row["place_m"] for row in table.table.rows] == [12_345.0]
+    (row,) = shown_by(replace(stop, position=12_345.0), case)["friction"]
+    assert row["place_m"] == 12_345.0
+    for samples in (1, 2, 15, 40):
+        kept = {name: own[:samples] for name, own in stop.recording.channels.items()}
+        short = replace(stop, recording=Recording(kept, stop.recording.units), standstill=None)
+        assert [row["standing"] for row in shown_by(short, case)["friction"]] != ["found"]
 
 
-@pytest.mark.parametrize("samples", [1, 2, 15, 40])
-def test_a_stop_of_a_few_samples_has_no_friction(recorded, samples):
-    stop, case = recorded
-    kept = {name: own[:samples] for name, own in stop.recording.channels.items()}
-    short = replace(stop, recording=Recording(kept, stop.recording.units), standstill=None)
-    (table,) = [each for each in shown_by(short, case).tables if each.name == "friction"]
-    assert [row["standing"] for row in table.table.rows] != ["found"]
+BEGIN = pd.Timestamp("2026-03-01 08:00:00")
+PLACE = 100_000.0
+DATED_MAP = """schema: uictest/channel-map/1
+name: dated
+extends: uictest
+channels: {distance: {source: Weg, unit: km}}
+"""
+LOCKS, SLIDES_LONGER, SLIDES, DRY = "stop-0003", "stop-0005", "stop-0002", ("stop-0001", "stop-0004")
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    """A CSV log with dates and a distance on the line: two dry stops, two that slide, one that locks."""
+    folder = tmp_path_factory.mktemp("worst")
+    dry = logs.simulated(logs.DRY, 80.0, 1)
+    slides, slides_longer = (logs.simulated(logs.wet(mu), 80.0, k) for k, mu in ((2, 0.09), (3, 0.07)))
+    values = {"initial_speed": "80 km/h", "criteria": "uictest-stop"}
+    values |= {"rail": logs.wet(0.06), "rig.wsp": "bypassed"}
+    locks = uictest.simulate(uictest.load(logs.SCENARIO, set=values)[0])
+    recorded = pd.read_parquet(
+        logs.write_log([dry, slides, locks, dry, slides_longer], folder / "log.parquet")
+    )
+    table = recorded.rename(columns=lambda name: name if name == "time" else f"{name} [{logs.unit_of(name)}]")
+    table["Weg [km]"] = (PLACE + (recorded["speed"] * logs.STEP).cumsum()) / 1000.0
+    dates = [BEGIN + pd.Timedelta(seconds=float(each)) for each in recorded["time"]]
+    table["time"] = [date.isoformat(timespec="milliseconds") for date in dates]
+    table.to_csv(folder / "log.csv", index=False)
+    (folder / "map.yaml").write_text(DATED_MAP, "utf-8")
+    return folder, recorded
+
+
+def judged_by(folder, tmp_path, monkeypatch, criteria):
+    monkeypatch.chdir(tmp_path)
+    conditions = tmp_path / "night.yaml"
+    conditions.write_text(logs.CONDITIONS.replace("uictest-stop", criteria), "utf-8")
+    arguments = ["--map", str(folder / "map.yaml"), "--scenario", "night.yaml"]
+    assert execute(["log", str(folder / "log.csv"), *arguments]) in (0, 1)
+    run = tmp_path / "reports" / "latest"
+    return run, list(csv.DictReader((run / "tables/campaign_stops.csv").read_text("utf-8").splitlines()))
+
+
+@pytest.mark.parametrize("criteria", ["uictest-stop", "uictest-wsp"])
+def test_the_worst_stop_comes_first_and_the_best_dry_ones_last(log, tmp_path, monkeypatch, criteria):
+    """By `uictest-wsp` the dry stops are no slide tests, by which they used to be the worst of all."""
+    folder, _ = log
+    _, stops = judged_by(folder, tmp_path, monkeypatch, criteria)
+    names = [row["stops"] for row in stops]
+    assert names[:3] == [LOCKS, SLIDES_LONGER, SLIDES]
+    assert set(names[3:]) == set(DRY)
+    assert float(stops[0]["locked_s"]) > 10.0
+
+
+def test_terminal_page_and_tables_say_when_and_where(log, tmp_path, monkeypatch, capsys):
+    folder, recorded = log
+    run, stops = judged_by(folder, tmp_path, monkeypatch, "uictest-stop")
+    travelled = (recorded["speed"] * logs.STEP).cumsum()
+    shown, page = capsys.readouterr().out, (run / "index.html").read_text("utf-8")
+    campaign = json.loads((run / "results.json").read_text("utf-8"))["campaign"]
+    (table,) = [each for each in campaign["tables"] if each["name"] == "stops"]
+    for row, cells in zip(stops, table["rows"], strict=True):
+        sample = int(row["sample"]) - 1
+        date = BEGIN + pd.Timedelta(seconds=float(recorded["time"][sample]))
+        assert pd.Timestamp(row["clock"]) == date.round("ms")
+        assert float(row["distance_m"]) == pytest.approx(travelled[sample], abs=0.5)
+        assert float(row["place_m"]) == pytest.approx(PLACE + travelled[sample], abs=0.5)
+        assert cells[1] == row["clock"]
+        line = next(each for each in shown.splitlines() if each.startswith(f"  {row['stops']} "))
+        assert re.search(rf"{row['clock']} +{float(row['distance_m']):.0f} ", line)
+        assert row["clock"] in page
+
+
+@pytest.mark.parametrize(
+    ("time", "text"),
+    [
+        (0.5, "0.5 s"),
+        (-3.25, "-3.25 s"),
+        (86400.0, "86400 s"),
+        (1772352090.04, "2026-03-01 08:01:30.040"),
+        (1772352090040.0, "1.77235209004e+12 s"),
+        (float("nan"), "nan s"),
+    ],
+)
+def test_a_clock_is_a_date_where_it_shows_one(time, text):
+    assert clock_text(time) == text

@@ -26,16 +26,10 @@ def braking(speed, end=0.0):
     return {"time": STEP * np.arange(600), "speed": course + noise, "brake_command": brake}
 
 
-@pytest.mark.parametrize("number", [100.0 / 3.6, 655.35 / 3.6])
-def test_two_wheel_sensors_that_show_one_number_hide_no_stop(tmp_path, number):
-    columns = table(KINDS)
-    columns |= {f"wheel_speed_{n}": np.full(len(columns["time"]), number) for n in (3, 4)}
-    assert found(columns, tmp_path / "log.parquet")[1] == PLACES
-
-
-def test_two_wheel_sensors_that_pick_up_noise_hide_no_stop(tmp_path):
+@pytest.mark.parametrize(("speed", "noise"), [(100.0 / 3.6, 0.0), (655.35 / 3.6, 0.0), (11.0, 0.3)])
+def test_two_wheel_sensors_that_show_one_number_or_noise_hide_no_stop(tmp_path, speed, noise):
     columns, draw = table(KINDS), np.random.default_rng(3)
-    columns |= {f"wheel_speed_{n}": 11.0 + draw.normal(0.0, 0.3, len(columns["time"])) for n in (3, 4)}
+    columns |= {f"wheel_speed_{n}": speed + draw.normal(0.0, noise, len(columns["time"])) for n in (3, 4)}
     assert found(columns, tmp_path / "log.parquet")[1] == PLACES
 
 
@@ -47,41 +41,57 @@ def test_wheels_that_spin_make_no_stop_of_a_slow_train(tmp_path):
     assert reasons[0].startswith("from 14.")
 
 
-def test_a_speed_that_comes_back_as_zero_ends_no_stop(tmp_path):
-    columns = braking(30.0)
+def test_a_speed_that_is_zero_infinite_or_lost_for_a_while_ends_no_stop(tmp_path):
+    path, columns = tmp_path / "log.parquet", braking(30.0)
     columns["speed"][180:190], columns["speed"][190:210] = np.nan, 0.0
-    log, places, _ = found(columns, tmp_path / "log.parquet")
+    log, places, _ = found(columns, path)
     assert places == [100]
     assert log.stops[0].rows[1] > 400, "standstill, not the zeros"
-
-
-@pytest.mark.parametrize("lost", [0.0, np.nan])
-def test_a_speed_that_is_lost_below_a_limit_is_told_as_that(tmp_path, lost):
-    columns = braking(30.0)
-    columns["speed"][columns["speed"] < 5.0] = lost
-    (reason,) = found(columns, tmp_path / "log.parquet")[2]
-    assert reason.startswith("the speed is lost at 18.")
-
-
-def test_an_infinite_speed_is_none(tmp_path):
     columns = braking(30.0)
     columns["speed"][50] = np.inf
-    assert found(columns, tmp_path / "log.parquet")[0].stops[0].distance == pytest.approx(300.0, rel=0.02)
-
-
-def test_a_speed_recorded_in_every_tenth_row_is_known(tmp_path):
-    columns = {name: np.repeat(samples, 10) for name, samples in braking(30.0).items()}
-    columns["time"] = 0.1 * STEP * np.arange(6000)
-    columns["speed"][np.arange(6000) % 10 != 0] = np.nan
-    log, _, _ = found(columns, tmp_path / "log.parquet")
-    assert log.stops[0].speed == pytest.approx(30.0, abs=0.05)
-
-
-@pytest.mark.parametrize("digits", [0, 1])
-def test_a_clock_too_coarse_for_its_rows_is_refused(tmp_path, digits):
+    assert found(columns, path)[0].stops[0].distance == pytest.approx(300.0, rel=0.02)
+    for lost in (0.0, np.nan):
+        columns = braking(30.0)
+        columns["speed"][columns["speed"] < 5.0] = lost
+        (reason,) = found(columns, path)[2]
+        assert reason.startswith("the speed is lost at 18.")
     columns = braking(30.0)
-    columns["time"] = np.floor(0.01 * np.arange(600) * 10**digits) / 10**digits
-    with pytest.raises(UnreadableError, match=r"repeats its time, or shows none, in 9[09] % of"):
+    columns |= {f"wheel_speed_{n}": columns["speed"].copy() for n in (1, 2, 3, 4)}
+    columns["speed"][200:] = 0.0
+    (stop,) = found(columns, path)[0].stops
+    assert stop.end_speed < 1.0
+    assert stop.rows[1] == pytest.approx(400 + 30, abs=5)
+
+
+def test_a_gap_within_a_stop_and_a_brake_signal_that_ends_are_told(tmp_path):
+    path, columns = tmp_path / "log.parquet", braking(30.0)
+    columns["time"][250:] += 20.0
+    assert "not recorded for 20.1 s" in found(columns, path)[0].stops[0].remarks
+    first, second = braking(30.0), braking(20.0)
+    columns = {name: np.concatenate((first[name], second[name])) for name in first}
+    columns["time"] = STEP * np.arange(1200)
+    columns["brake_command"][450:] = np.nan
+    assert found(columns, path)[1:] == ([100], ["the brake signal is missing"])
+
+
+def test_a_pulse_before_the_brake_begins_no_stop_and_a_speed_in_every_tenth_row_is_known(tmp_path):
+    path, columns = tmp_path / "log.parquet", {name: np.repeat(v, 10) for name, v in braking(30.0).items()}
+    columns["time"] = 0.1 * STEP * np.arange(6000)
+    pulsed = columns | {"brake_command": columns["brake_command"].copy()}
+    pulsed["brake_command"][750] = 1.0
+    (quiet,), (noisy,) = (found(each, path)[0].stops for each in (columns, pulsed))
+    assert noisy == quiet
+    columns["speed"][np.arange(6000) % 10 != 0] = np.nan
+    assert found(columns, path)[0].stops[0].speed == pytest.approx(30.0, abs=0.05)
+
+
+@pytest.mark.parametrize(("digits", "share"), [(0, "9[09]"), (1, "9[09]"), (None, "100")])
+def test_a_clock_too_coarse_for_its_rows_or_without_a_time_is_refused(tmp_path, digits, share):
+    columns = braking(30.0)
+    columns["time"] = (
+        np.full(600, np.nan) if digits is None else np.floor(0.01 * np.arange(600) * 10**digits) / 10**digits
+    )
+    with pytest.raises(UnreadableError, match=rf"repeats its time, or shows none, in {share} %"):
         found(columns, tmp_path / "log.parquet")
 
 
@@ -95,64 +105,52 @@ def test_dates_that_cannot_be_read_are_told(tmp_path, suffix):
         find_stops([tmp_path / "log.csv"], MAP)
 
 
-def test_a_clock_put_forward_within_a_stop_makes_it_an_error(tmp_path):
-    columns = braking(30.0)
-    columns["time"][250:] += 28_800.0
-    log, _, _ = found(columns, tmp_path / "log.parquet")
-    (path,) = write_stops(log, MAP, tmp_path / "stops")
-    with pytest.raises(UnusableError, match=r"speed is not recorded from 24\.9 to 28825 s"):
-        stop_in(path, MAP)
-
-
-def test_a_copy_is_told_whatever_its_name_and_clock(tmp_path):
-    first = written(braking(30.0), tmp_path / "log.parquet")
-    (tmp_path / "other.parquet").symlink_to(first)
-    with pytest.raises(UnreadableError, match=r"other\.parquet: named twice, or a copy of .*log\.parquet"):
-        find_stops([first, tmp_path / "other.parquet"], MAP)
-
-
-def test_files_with_dates_are_read_in_their_order(tmp_path):
+def test_files_with_dates_are_read_in_their_order_and_a_copy_or_an_overlap_is_refused(tmp_path):
     columns = table(KINDS)
     columns["time"] += BEGIN
-    parts = {"a": slice(0, 1500), "b": slice(1500, None)}
-    late, early = (
-        written({k: v[parts[name]] for k, v in columns.items()}, tmp_path / f"{name}.parquet")
-        for name in ("b", "a")
-    )
+
+    def parts(*rows):
+        return [
+            written({k: v[part] for k, v in columns.items()}, tmp_path / f"{n}.parquet")
+            for n, part in enumerate(rows)
+        ]
+
+    late, early = parts(slice(1500, None), slice(0, 1500))
     log = find_stops([late, early], MAP)
     assert [(event.file, event.row) for event in log.stops] == [(early, place) for place in PLACES]
-
-
-def test_stops_of_an_overlap_of_half_a_minute_are_not_found_twice(tmp_path):
-    columns = table(KINDS)
-    columns["time"] += BEGIN
-    parts = [slice(0, 500), slice(180, None)]
-    files = [
-        written({k: v[part] for k, v in columns.items()}, tmp_path / f"{n}.parquet")
-        for n, part in enumerate(parts)
-    ]
+    (tmp_path / "other.parquet").symlink_to(late)
+    with pytest.raises(UnreadableError, match=r"other\.parquet: named twice, or a copy of .*0\.parquet"):
+        find_stops([late, tmp_path / "other.parquet"], MAP)
     with pytest.raises(UnreadableError, match="begins 32 s before"):
-        find_stops(files, MAP)
+        find_stops(parts(slice(0, 500), slice(180, None)), MAP)
 
 
-def test_pole_wheels_have_no_sign_when_the_train_runs_backwards(tmp_path):
+def test_a_default_date_overlaps_nothing_and_a_log_that_grows_meanwhile_is_told(tmp_path):
+    first, second = braking(30.0), braking(20.0)
+    first["time"] += BEGIN
+    second["time"] += BEGIN + 100.0
+    second["time"][:5] = 9.8e8 + STEP * np.arange(5)
+    files = [written(each, tmp_path / f"{n}.parquet") for n, each in enumerate((first, second))]
+    log = find_stops(files, MAP)
+    assert [event.file for event in log.stops] == files
+    written({name: np.tile(samples, 2) for name, samples in first.items()}, files[0])
+    with pytest.raises(UnreadableError, match=r"0\.parquet: has changed"):
+        write_stops(log, MAP, tmp_path / "stops")
+
+
+def test_pole_wheels_have_no_sign_and_a_clock_put_forward_within_a_stop_makes_it_an_error(tmp_path):
     columns = braking(30.0)
     columns |= {f"wheel_speed_{n}": np.abs(columns["speed"]) for n in (1, 2, 3, 4)}
     columns["speed"] = -columns["speed"]
-    log, _, _ = found(columns, tmp_path / "log.parquet")
-    (path,) = write_stops(log, MAP, tmp_path / "stops")
+    (path,) = write_stops(found(columns, tmp_path / "log.parquet")[0], MAP, tmp_path / "stops")
     stop = stop_in(path, MAP).recording
     assert np.median(stop["speed"]) == pytest.approx(np.median(stop["wheel_speed_1"]))
     assert np.median(stop["speed"]) > 0.0
-
-
-def test_a_name_of_two_columns_is_told(tmp_path):
     columns = braking(30.0)
-    names = [*columns, "speed"]
-    samples = pa.Table.from_arrays([pa.array(columns[name]) for name in names], names=names)
-    parquet.write_table(samples, tmp_path / "log.parquet")
-    with pytest.raises(UnreadableError, match="2 columns have the name 'speed'"):
-        find_stops([tmp_path / "log.parquet"], MAP)
+    columns["time"][250:] += 28_800.0
+    (path,) = write_stops(found(columns, tmp_path / "log.parquet")[0], MAP, tmp_path / "stops")
+    with pytest.raises(UnusableError, match=r"speed is not recorded from 24\.9 to 28825 s"):
+        stop_in(path, MAP)
 
 
 def test_waveforms_of_devices_that_start_apart_lie_where_they_began(tmp_path):
@@ -173,29 +171,25 @@ def test_waveforms_of_devices_that_start_apart_lie_where_they_began(tmp_path):
     assert [group.time[0] for group in piece.groups] == pytest.approx([0.0, 3.0])
 
 
-def test_a_train_speed_that_drops_to_zero_is_replaced_down_to_standstill(tmp_path):
-    columns = braking(30.0)
-    columns |= {f"wheel_speed_{n}": columns["speed"].copy() for n in (1, 2, 3, 4)}
-    columns["speed"][200:] = 0.0
-    log, _, _ = found(columns, tmp_path / "log.parquet")
-    assert log.stops[0].end_speed < 1.0
-    assert log.stops[0].rows[1] == pytest.approx(400 + 30, abs=5)
-
-
 def test_a_brake_command_without_a_value_is_not_recorded(tmp_path):
     columns = braking(30.0)
     columns |= {f"cylinder_pressure_{n}": 3e5 * columns["brake_command"] for n in (1, 2, 3, 4)}
     columns["brake_command"] = np.full(600, np.nan)
-    names = {f"cylinder_pressure_{n}": "Pa" for n in (1, 2, 3, 4)} | UNITS
-    fields = [pa.field(name, pa.float64(), metadata={"unit": names.get(name, "m/s")}) for name in columns]
-    parquet.write_table(pa.table(list(columns.values()), schema=pa.schema(fields)), tmp_path / "log.parquet")
-    assert [event.row for event in find_stops([tmp_path / "log.parquet"], MAP).stops] == [100]
+    assert found(columns, tmp_path / "log.parquet")[1] == [100]
 
 
-def test_a_pipe_is_no_log(tmp_path):
-    os.mkfifo(tmp_path / "log.csv")
-    with pytest.raises(UnreadableError, match=r"log\.csv: not a file"):
-        find_stops([tmp_path / "log.csv"], MAP)
+def test_a_pipe_a_name_of_two_columns_and_a_name_that_is_not_utf8_are_refused(tmp_path):
+    pipe, twice, latin = (tmp_path / name for name in ("log.csv", "log.parquet", os.fsdecode(b"b\xff.csv")))
+    os.mkfifo(pipe)
+    columns = braking(30.0)
+    names = [*columns, "speed"]
+    samples = pa.Table.from_arrays([pa.array(columns[name]) for name in names], names=names)
+    parquet.write_table(samples, twice)
+    latin.write_text("time [s],speed [m/s],brake_command\n0,1,0\n1,1,0\n")
+    refusals = {pipe: r"log\.csv: not a file", twice: "2 columns have the name 'speed'"}
+    for path, reason in (refusals | {latin: "the name of the file is not UTF-8"}).items():
+        with pytest.raises(UnreadableError, match=reason):
+            find_stops([path], MAP)
 
 
 def test_stops_that_another_run_replaced_are_not_judged(tmp_path, monkeypatch, capsys):
@@ -229,81 +223,29 @@ def test_earlier_stops_stay_until_the_new_ones_stand_there(tmp_path, monkeypatch
     assert stop_in(tmp_path / "stops" / "stop-0001.parquet", MAP)
 
 
-def test_a_brake_signal_that_ends_before_the_log_is_told_as_missing(tmp_path):
-    first, second = braking(30.0), braking(20.0)
-    columns = {name: np.concatenate((first[name], second[name])) for name in first}
-    columns["time"] = STEP * np.arange(1200)
-    columns["brake_command"][450:] = np.nan
-    _, places, reasons = found(columns, tmp_path / "log.parquet")
-    assert places == [100]
-    assert reasons == ["the brake signal is missing"]
-
-
-def test_a_gap_within_a_stop_is_told(tmp_path):
-    columns = braking(30.0)
-    columns["time"][250:] += 20.0
-    assert "not recorded for 20.1 s" in found(columns, tmp_path / "log.parquet")[0].stops[0].remarks
-
-
-def test_a_log_in_the_folder_of_the_stops_is_left_there(tmp_path, monkeypatch, capsys):
+def test_the_command_refuses_what_it_would_overwrite_and_wrong_statements(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    (path,) = write_stops(found(braking(30.0), tmp_path / "log.parquet")[0], MAP, tmp_path / "stops")
-    assert execute(["log", str(path), *STATED]) == 4
-    assert "lies in stops, which the stops replace" in capsys.readouterr().err
-    assert path.is_file()
-
-
-def test_a_pulse_before_the_brake_begins_no_stop(tmp_path):
-    columns = {name: np.repeat(samples, 10) for name, samples in braking(30.0).items()}
-    columns["time"] = 0.1 * STEP * np.arange(6000)
-    pulsed = columns | {"brake_command": columns["brake_command"].copy()}
-    pulsed["brake_command"][750] = 1.0
-    (quiet,), (noisy,) = (found(each, tmp_path / "log.parquet")[0].stops for each in (columns, pulsed))
-    assert noisy == quiet
-
-
-def test_a_clock_that_shows_no_time_is_refused(tmp_path):
-    columns = braking(30.0)
-    columns["time"][:] = np.nan
-    with pytest.raises(UnreadableError, match="shows none, in 100 %"):
-        found(columns, tmp_path / "log.parquet")
-
-
-def test_a_recorder_that_begins_with_a_default_date_overlaps_nothing(tmp_path):
-    first, second = braking(30.0), braking(20.0)
-    first["time"] += BEGIN
-    second["time"] += BEGIN + 100.0
-    second["time"][:5] = 9.8e8 + STEP * np.arange(5)
-    files = [written(each, tmp_path / f"{n}.parquet") for n, each in enumerate((first, second))]
-    assert [event.file for event in find_stops(files, MAP).stops] == files
-
-
-def test_a_case_of_a_sweep_of_the_rail_can_be_selected(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    written(braking(30.0), tmp_path / "log.parquet")
+    log = found(braking(30.0), tmp_path / "log.parquet")[0]
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "own.txt").write_text("mine")
+    refusals = [
+        (["log.parquet", "--set", "criteria=none-such"], "none-such"),
+        (["log.parquet", "--recordings", "full"], "full: own.txt: uictest did not write it"),
+        (["stops/stop-0001.parquet"], "lies in stops, which the stops replace"),
+    ]
+    for arguments, reason in refusals:
+        if arguments[0].startswith("stops"):
+            assert not (tmp_path / "stops").exists(), "nothing is read with a wrong statement"
+            write_stops(log, MAP, tmp_path / "stops")
+        assert execute(["log", arguments[0], *STATED, *arguments[1:]]) == 4
+        assert reason in capsys.readouterr().err
+    assert (tmp_path / "stops/stop-0001.parquet").is_file()
     (tmp_path / "sweep.yaml").write_text(
         "schema: uictest/scenario/1\nname: sweep\ntitle: Sweep\ninitial_speed: 108 km/h\n"
         "brake: {command: 100 %, position: R}\nrail: {condition: wet, friction: 0.1}\n"
         "criteria: [uictest-stop]\nmatrix: {rail.friction: [0.08, 0.1]}\n"
     )
     assert execute(["log", "log.parquet", "--scenario", "sweep.yaml", "-k", "friction=0.08"]) in (0, 1)
-
-
-def test_a_log_that_grows_meanwhile_is_told(tmp_path):
-    first, second = braking(30.0), braking(20.0)
-    files = [written(each, tmp_path / f"{n}.parquet") for n, each in enumerate((first, second))]
-    log = find_stops(files, MAP)
-    written({name: np.tile(samples, 2) for name, samples in first.items()}, files[0])
-    with pytest.raises(UnreadableError, match=r"0\.parquet: has changed"):
-        write_stops(log, MAP, tmp_path / "stops")
-
-
-def test_wrong_statements_are_told_before_the_log_is_read(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    written(braking(30.0), tmp_path / "log.parquet")
-    assert execute(["log", "log.parquet", *STATED, "--set", "criteria=none-such"]) == 4
-    assert "none-such" in capsys.readouterr().err
-    assert not (tmp_path / "stops").exists()
 
 
 @pytest.mark.parametrize("locked", [(1, 2, 3, 4), (2, 3, 4)])
@@ -326,19 +268,3 @@ def test_a_train_speed_in_whole_kmh_is_not_stuck_while_wheelsets_lock(tmp_path, 
     log, places, _ = found(columns, tmp_path / "log.parquet")
     assert places == [100]
     assert log.stops[0].rows[1] > 100 + kept + 640
-
-
-def test_a_folder_that_is_not_replaced_names_the_file_that_is_in_the_way(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    written(braking(30.0), tmp_path / "log.parquet")
-    (tmp_path / "full").mkdir()
-    (tmp_path / "full" / "own.txt").write_text("mine")
-    assert execute(["log", "log.parquet", *STATED, "--recordings", "full"]) == 4
-    assert "full: own.txt: uictest did not write it" in capsys.readouterr().err
-
-
-def test_a_name_of_a_file_that_is_not_utf8_is_told_as_that(tmp_path):
-    name = tmp_path / os.fsdecode(b"b\xff.csv")
-    name.write_text("time [s],speed [m/s],brake_command\n0,1,0\n1,1,0\n")
-    with pytest.raises(UnreadableError, match="the name of the file is not UTF-8"):
-        find_stops([name], MAP)

@@ -26,31 +26,26 @@ STEP = 0.1
 MAP = load_map("uictest")[0]
 
 
-def ramp(begin, end, seconds):
-    return np.linspace(begin, end, round(seconds / STEP), endpoint=False)
-
-
 def application(speed, end, seconds):
     """Return 10 s of running, then a braked ramp, then 10 s at its end with the brake released."""
-    course = np.concatenate((np.full(100, speed), ramp(speed, end, seconds), np.full(100, end)))
-    return course, np.concatenate((np.zeros(100), np.ones(round(seconds / STEP)), np.zeros(len(course))))[
-        : len(course)
-    ]
-
-
-def backwards():
-    speed, brake = application(15.0, 0.0, 15.0)
-    return -speed, brake
+    rows = round(seconds / STEP)
+    ramp = np.linspace(speed, end, rows, endpoint=False)
+    course = np.concatenate((np.full(100, speed), ramp, np.full(100, end)))
+    return course, np.concatenate((np.zeros(100), np.ones(rows), np.zeros(100)))
 
 
 PIECES = {
     "stop": lambda: application(30.0, 0.0, 30.0),
-    "backwards": backwards,
+    "backwards": lambda: tuple(
+        sign * column for sign, column in zip((-1, 1), application(15.0, 0.0, 15.0), strict=True)
+    ),
     "shunting": lambda: application(4.0, 0.0, 4.0),
     "released": lambda: application(30.0, 12.0, 18.0),
     "drag": lambda: application(20.0, 20.0, 60.0),
     "parked": lambda: application(0.0, 0.0, 30.0),
 }
+
+
 REASONS = {"shunting": "below", "released": "released at", "drag": "drag", "parked": "without motion"}
 
 
@@ -62,13 +57,9 @@ def table(kinds, seed=0):
     return columns | {f"wheel_speed_{n}": speed + noise for n in (1, 2, 3, 4)}
 
 
-UNITS = {
-    "time": "s",
-    "distance": "m",
-    "brake_command": "1",
-    "brake_line_pressure": "Pa",
-    "reservoir_pressure": "Pa",
-}
+UNITS = {"time": "s", "distance": "m", "brake_command": "1"}
+UNITS |= dict.fromkeys(("brake_line_pressure", "reservoir_pressure"), "Pa")
+UNITS |= {f"cylinder_pressure_{n}": "Pa" for n in (1, 2, 3, 4)}
 STATED = [
     word
     for condition in ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
@@ -115,10 +106,7 @@ def written_tdms(groups, path, rows=1000):
                         f"g{number}",
                         name,
                         samples[first : first + rows],
-                        properties={
-                            "unit_string": UNITS.get(name, "m/s"),
-                            **(raster if len(groups) > 1 else {}),
-                        },
+                        {"unit_string": UNITS.get(name, "m/s")} | (raster if len(groups) > 1 else {}),
                     )
                     for name, samples in columns.items()
                     if name != "time" or len(groups) == 1
@@ -134,15 +122,21 @@ def _rolled():
     return uictest.simulate(case)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.sampled_from(sorted(PIECES)), min_size=1, max_size=12), st.integers(0, 99))
-def test_every_stop_is_found_and_none_invented(tmp_path_factory, kinds, seed):
+def test_every_stop_is_found_and_none_invented_in_pieces_of_any_length(
+    tmp_path_factory, monkeypatch, kinds, seed
+):
     path = written(table(kinds, seed), tmp_path_factory.mktemp("log") / "log.parquet")
     log = find_stops([path], MAP)
     assert len(log.stops) == kinds.count("stop") + kinds.count("backwards")
     expected = [REASONS[kind] for kind in kinds if kind in REASONS]
     assert len(log.passed_over) == len(expected)
     assert all(text in event.reason for text, event in zip(expected, log.passed_over, strict=True))
+    with monkeypatch.context() as patch:
+        patch.setattr("uictest.core.recording.formats.pieces._ROWS", 130 + 7 * seed)
+        in_pieces = find_stops([path], MAP)
+    assert (in_pieces.stops, in_pieces.passed_over) == (log.stops, log.passed_over)
 
 
 @pytest.fixture(name="small_pieces")
@@ -166,17 +160,6 @@ def test_every_format_gives_the_same_places(tmp_path, request, small_pieces, suf
     for event, path in zip(log.stops, write_stops(log, MAP, tmp_path / "stops"), strict=True):
         stop = parquet.read_table(path)
         assert stop["wheel_speed_3"].to_numpy() == pytest.approx(columns["wheel_speed_3"][slice(*event.rows)])
-
-
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(st.lists(st.sampled_from(sorted(PIECES)), min_size=6, max_size=12), st.integers(0, 99))
-def test_a_log_read_in_small_pieces_has_the_same_events(tmp_path_factory, monkeypatch, kinds, seed):
-    path = written(table(kinds, seed), tmp_path_factory.mktemp("log") / "log.parquet")
-    whole = find_stops([path], MAP)
-    with monkeypatch.context() as patch:
-        patch.setattr("uictest.core.recording.formats.pieces._ROWS", 130 + 7 * seed)
-        in_pieces = find_stops([path], MAP)
-    assert (in_pieces.stops, in_pieces.passed_over) == (whole.stops, whole.passed_over)
 
 
 def test_the_finder_holds_no_more_than_an_application(tmp_path, monkeypatch):
@@ -297,13 +280,17 @@ def test_a_log_that_is_not_read_to_its_end_leaves_no_process(tmp_path, monkeypat
     assert [each.returncode is not None for each in begun] == [True]
 
 
-@pytest.mark.parametrize("step", [-500.0, 4000.0])
-def test_a_step_of_the_clock_within_a_stop_hides_it_not(tmp_path, step):
+@pytest.mark.parametrize(
+    ("row", "step", "remark"),
+    [(200, -500.0, "the clock steps"), (200, 4000.0, "the clock steps"), (520, 20 * 86_400.0, "")],
+)
+def test_a_step_of_the_clock_hides_no_stop_and_a_log_may_span_weeks(tmp_path, row, step, remark):
     columns = table(["stop", "stop"])
-    columns["time"][200:] += step
-    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
-    assert len(log.stops) == 2
-    assert "the clock steps" in log.stops[0].remarks[0]
+    columns["time"][row:] += step
+    columns["time"] += 1.7e9
+    first, second = find_stops([written(columns, tmp_path / "log.parquet")], MAP).stops
+    assert (remark in first.remarks[0]) if remark else first.remarks == ()
+    assert second.remarks == ()
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.3e5, -0.3e5])
@@ -323,51 +310,39 @@ def test_a_brake_that_is_never_released_in_the_record_is_seen(tmp_path):
     assert stop.begins_braked
 
 
-def test_a_log_may_span_weeks(tmp_path):
-    columns = table(["stop", "stop"])
-    columns["time"][520:] += 20 * 86_400.0
-    columns["time"] += 1.7e9
-    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
-    assert [event.remarks for event in log.stops] == [(), ()]
-
-
-def test_a_stop_after_drag_braking_says_how_long_the_speed_was_kept(tmp_path):
+def test_an_interruption_while_braking_is_no_stop_but_drag_braking_and_a_dead_speed_hide_none(tmp_path):
+    path = tmp_path / "log.parquet"
+    columns = {name: np.delete(samples, slice(200, 420)) for name, samples in table(["stop"]).items()}
+    columns["time"][200:] += 3600.0
+    log = find_stops([written(columns, path)], MAP)
+    assert not log.stops
+    assert "interrupted" in log.passed_over[0].reason
     columns = table(["drag", "stop"])
     columns["brake_command"][100:1100] = 1.0
     columns["speed"][600:1000] = columns["speed"][100]
-    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
+    log = find_stops([written(columns, path)], MAP)
     assert "the speed is kept for" in log.stops[0].remarks[-1]
+    for dead in (np.nan, 0.0, 30.0):
+        columns = table(["stop", "stop"])
+        columns["speed"][150:] = dead
+        assert len(find_stops([written(columns, path)], MAP).stops) == 2
 
 
-def test_an_interruption_while_braking_is_no_stop(tmp_path):
-    columns = {name: np.delete(samples, slice(200, 420)) for name, samples in table(["stop"]).items()}
-    columns["time"][200:] += 3600.0
-    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
-    assert not log.stops
-    assert "interrupted" in log.passed_over[0].reason
-
-
-@pytest.mark.parametrize("dead", [np.nan, 0.0, 30.0])
-def test_a_dead_train_speed_hides_no_stop(tmp_path, dead):
-    columns = table(["stop", "stop"])
-    columns["speed"][150:] = dead
-    assert len(find_stops([written(columns, tmp_path / "log.parquet")], MAP).stops) == 2
-
-
-def test_files_are_one_log_and_a_stop_may_lie_in_two(tmp_path):
-    columns = table(["stop", "released", "stop"])
-    cut = 250
-    parts = [{k: v[:cut] for k, v in columns.items()}, {k: v[cut:] for k, v in columns.items()}]
+def test_files_are_one_log_and_the_stops_stay_when_it_cannot_be_read_again(tmp_path):
+    """The first stop lies in two files; the second runs backwards and is exported with positive speed."""
+    columns = table(["stop", "released", "backwards"])
+    parts = [{k: v[part] for k, v in columns.items()} for part in (slice(0, 250), slice(250, None))]
     paths = [written(part, tmp_path / f"{k}.parquet") for k, part in enumerate(parts)]
     log = find_stops(paths, MAP)
     assert [event.file for event in log.stops] == paths
-    first = min(write_stops(log, MAP, tmp_path / "stops"))
+    first, second = sorted(write_stops(log, MAP, tmp_path / "stops"))
     assert stop_in(first, MAP).standstill == pytest.approx((30.0, 450.0), rel=0.02)
-
-
-def test_a_stop_running_backwards_is_exported_with_positive_speed(tmp_path):
-    log = find_stops([written(table(["backwards"]), tmp_path / "log.parquet")], MAP)
-    assert stop_in(min(write_stops(log, MAP, tmp_path / "stops")), MAP).recording["speed"][0] > 14.0
+    assert stop_in(second, MAP).recording["speed"][0] > 14.0
+    before = {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()}
+    paths[0].unlink()
+    with pytest.raises(OSError, match=r"0\.parquet"):
+        write_stops(log, MAP, tmp_path / "stops")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()} == before
 
 
 def test_what_cannot_be_read_is_said_with_its_file(tmp_path):
@@ -382,33 +357,30 @@ def test_what_cannot_be_read_is_said_with_its_file(tmp_path):
         find_stops([tmp_path / "bad.csv"], MAP)
 
 
-def test_the_command_judges_each_stop_and_lists_the_rest(tmp_path, monkeypatch, capsys):
+def test_the_command_judges_each_stop_and_lists_the_rest_in_every_report(tmp_path, monkeypatch, capsys):
+    """Also in a report that is written later."""
     monkeypatch.chdir(tmp_path)
     written(table(["stop", "drag", "stop"]), tmp_path / "day.csv")
     code = execute(["log", "day.csv", "--recordings", "stops", *STATED])
     shown = capsys.readouterr()
     assert code in (0, 1)
     assert re.search(r"passed over: day.csv at 60 s \(sample 601, \d+ m\): drag", shown.err)
-    tables = tmp_path / "reports/latest/tables"
-    stops, passed_over = (pd.read_csv(tables / f"campaign_{name}.csv") for name in ("stops", "passed_over"))
+    run = tmp_path / "reports/latest"
+    stops, passed_over = (
+        pd.read_csv(run / f"tables/campaign_{name}.csv") for name in ("stops", "passed_over")
+    )
     assert set(stops["stops"]) == {"stop-0001", "stop-0002"}
     assert passed_over[["file", "sample"]].values.tolist() == [["day.csv", 601]]
     assert passed_over["reason"][0].startswith("drag")
-    results = json.loads((tmp_path / "reports/latest/results.json").read_text("utf-8"))
+    results = json.loads((run / "results.json").read_text("utf-8"))
     assert [case["id"] for case in results["cases"]] == ["stop-0001", "stop-0002"]
-    assert execute(["evaluate", "stops/stop-0001.parquet", *STATED]) == code
-
-
-def test_every_report_shows_what_was_passed_over_also_when_it_is_written_later(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    written(table(["stop", "drag"]), tmp_path / "day.parquet")
-    execute(["log", "day.parquet", "-q", *STATED])
-    (told,) = json.loads((tmp_path / "reports/latest/results.json").read_text("utf-8"))["passed_over"]
-    assert "drag braking" in told
-    (tmp_path / "reports/latest/index.html").unlink()
+    (sentence,) = results["passed_over"]
+    assert "drag braking" in sentence
+    (run / "index.html").unlink()
     assert execute(["report", "reports/latest", "--format", "html,md"]) == 0
     for name in ("index.html", "summary.md"):
-        assert told in (tmp_path / "reports/latest" / name).read_text("utf-8")
+        assert sentence in (run / name).read_text("utf-8")
+    assert execute(["evaluate", "stops/stop-0001.parquet", *STATED]) == code
 
 
 def test_a_stop_that_cannot_be_judged_leaves_the_others(tmp_path, monkeypatch, capsys):
@@ -425,19 +397,17 @@ def test_a_stop_that_cannot_be_judged_leaves_the_others(tmp_path, monkeypatch, c
 
 def test_a_simulated_stop_found_by_its_pressures_keeps_its_distance(tmp_path, rolled):
     """It begins with the first rise of the pressure, 0.13 s after the command."""
-    recording = rolled
     names = ["speed", *(f"wheel_speed_{n}" for n in (1, 2, 3, 4)), "brake_line_pressure"]
     lead = 500
     columns = {
-        name: np.concatenate((np.full(lead, recording[name][0]), recording[name], np.zeros(1000)))
-        for name in names
+        name: np.concatenate((np.full(lead, rolled[name][0]), rolled[name], np.zeros(1000))) for name in names
     }
     columns["time"] = 0.01 * np.arange(len(columns["speed"]))
     log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
     stop = stop_in(min(write_stops(log, MAP, tmp_path / "stops")), MAP)
     late = 0.01 * (log.stops[0].row - lead)
     assert 0.0 < late < 0.2
-    expected = recording["distance"][-1] - late * recording["speed"][0]
+    expected = rolled["distance"][-1] - late * rolled["speed"][0]
     assert stop.standstill[1] == pytest.approx(expected, rel=2e-3)
 
 
@@ -473,16 +443,6 @@ def test_stops_of_an_earlier_log_go_and_what_is_not_ours_stays(tmp_path, monkeyp
     assert "stops: note.txt: uictest did not write it" in capsys.readouterr().err
     assert {path.name for path in Path("stops").iterdir()} >= {"stop-0001.parquet", "note.txt"}
     assert Path("stops/stop-0001.parquet").read_bytes() == before
-
-
-def test_a_log_that_cannot_be_read_to_its_end_leaves_the_stops_as_they_were(tmp_path):
-    log = find_stops([written(table(["stop"]), tmp_path / "log.parquet")], MAP)
-    write_stops(log, MAP, tmp_path / "stops")
-    before = {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()}
-    (tmp_path / "log.parquet").unlink()
-    with pytest.raises(OSError, match=r"log\.parquet"):
-        write_stops(log, MAP, tmp_path / "stops")
-    assert {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()} == before
 
 
 def test_a_recorded_distance_gives_the_place_on_the_line(tmp_path, monkeypatch):

@@ -20,34 +20,20 @@ from uictest.core.statistics import (
 )
 
 
-def test_the_interval_is_that_of_scipy():
+@pytest.mark.parametrize(("interval", "share"), [(mean_interval, 1 / 5), (next_interval, 1.0 + 1 / 5)])
+def test_an_interval_of_the_mean_or_of_the_next_draw_is_that_of_the_textbook(interval, share):
+    """By SciPy's t; `share` is the variance of what is estimated over that of a draw. One value has none."""
     values = [18.2, 21.0, 19.4, 25.1, 17.7]
-    expected = stats.t.interval(0.9, len(values) - 1, np.mean(values), stats.sem(values))
-    assert mean_interval(values, 0.9) == pytest.approx(expected, rel=1e-12)
+    scale = np.std(values, ddof=1) * math.sqrt(share)
+    expected = stats.t.interval(0.9, len(values) - 1, np.mean(values), scale)
+    assert interval(values, 0.9) == pytest.approx(expected, rel=1e-12)
+    assert all(map(math.isnan, interval([3.0])))
 
 
-def test_one_value_has_no_interval():
-    assert all(map(math.isnan, mean_interval([3.0])))
-
-
-def test_it_holds_the_mean_as_often_as_it_says():
+def test_they_hold_the_mean_and_the_next_draw_as_often_as_they_say():
     draws = np.random.default_rng(1).normal(5.0, 2.0, (2000, 6))
     holding = sum(low <= 5.0 <= high for low, high in (mean_interval(list(row)) for row in draws))
     assert holding / 2000 == pytest.approx(0.95, abs=0.015)
-
-
-def test_the_interval_of_the_next_draw_is_that_of_the_textbook():
-    values = [18.2, 21.0, 19.4, 25.1, 17.7]
-    scale = np.std(values, ddof=1) * math.sqrt(1.0 + 1.0 / len(values))
-    expected = stats.t.interval(0.9, len(values) - 1, np.mean(values), scale)
-    assert next_interval(values, 0.9) == pytest.approx(expected, rel=1e-12)
-
-
-def test_one_value_says_nothing_of_the_next():
-    assert all(map(math.isnan, next_interval([3.0])))
-
-
-def test_it_holds_the_next_draw_as_often_as_it_says():
     draws = np.random.default_rng(2).normal(5.0, 2.0, (2000, 5))
     intervals = (next_interval(list(row[:4])) for row in draws)
     holding = sum(low <= row[4] <= high for row, (low, high) in zip(draws, intervals, strict=True))

@@ -129,7 +129,7 @@ def test_version_2_of_the_contract_holds_for_all_cars(write_train):
     assert set(rig.recording()[2]["sand_request_1"]) == {0.0}
 
 
-def test_one_of_several_trains_is_chosen_by_its_id(write_train):
+def test_one_of_several_trains_is_chosen_by_its_id_and_no_car_of_it(write_train):
     path = write_train("matrix: {seed: [0, 1]}\n")
     rig = uictest.TrainRig(path, "train[seed=1]")
     assert [case.id for case in rig.cases] == [f"train[seed=1,car={car}]" for car in (1, 2, 3)]
@@ -137,9 +137,6 @@ def test_one_of_several_trains_is_chosen_by_its_id(write_train):
         uictest.TrainRig(path)
     with pytest.raises(ValueError, match=r"no train 'train\[seed=0,car=1\]'; did you mean"):
         uictest.TrainRig(path, "train[seed=0,car=1]")
-
-
-def test_a_car_of_a_train_is_referred_to_the_rig_of_trains(write_train):
     with pytest.raises(ValueError, match=r"car 2 of 3: step its train with uictest.TrainRig$"):
         uictest.Rig(write_train(), "train[car=2]")
     with pytest.raises(ValueError, match=r"car 1 of 3: step its train with uictest.TrainRig$"):

@@ -10,6 +10,9 @@ from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
 from uictest import CaseResult
 from uictest.plans.scenario import PASS
 
+OURS = OwnBand(lower=16.5, upper=19.0, reason="ours")
+THEIRS = SourceBand(upper=2.0, below=True)
+
 
 @pytest.fixture(scope="session")
 def stop_runner():
@@ -38,23 +41,8 @@ def stop():
 def made_up():
     """A study of three quantities: one holds, one misses, one has no band and was not found."""
     quantities = (
-        StudyQuantity(
-            "time",
-            "braking time",
-            "s",
-            "17.6 s",
-            status="calibrated",
-            band=OwnBand(lower=16.5, upper=19.0, reason="ours"),
-        ),
-        StudyQuantity(
-            "share",
-            "[bold]share",
-            "%",
-            "below 2 %",
-            status="predicted",
-            band=SourceBand(upper=2.0, below=True),
-            digits=2,
-        ),
+        StudyQuantity("time", "braking time", "s", "17.6 s", status="calibrated", band=OURS),
+        StudyQuantity(*("share", "[bold]share", "%", "below 2 %"), status="predicted", band=THEIRS, digits=2),
         StudyQuantity("count", "actuations", status="predicted", digits=0),
     )
     values = {
@@ -62,8 +50,7 @@ def made_up():
         "share": StudyValue(2.0),
         "count": StudyValue(float("nan"), float("nan"), float("nan")),
     }
-    findings = StudyFindings(
-        values, {"data": {"time_s": [0.0, 0.5], "what": ["a, b", None]}}, notes=("Made up.",)
-    )
+    data = {"data": {"time_s": [0.0, 0.5], "what": ["a, b", None]}}
+    findings = StudyFindings(values, data, notes=("Made up.",))
     study = Study("made-up", "A made-up study", "17.6 s", quantities, lambda stop_runner: findings)
     return StudyResult(study, findings)

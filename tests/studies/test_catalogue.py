@@ -40,15 +40,12 @@ def test_every_band_is_the_one_that_was_set(study, key):
 
 
 @pytest.mark.parametrize("study", list(STUDIES))
-def test_keys_are_unique_and_every_band_says_where_it_comes_from(study):
+def test_names_keys_and_bands_of_a_study_are_sound(study):
+    """Keys are unique, bands have a source, names serve as folders, titles name no figure of the paper."""
     quantities = STUDIES[study].quantities
     assert len(_quantities(study)) == len(quantities)
     bands = [quantity.band for quantity in quantities if quantity.band is not None]
     assert all(band.reason and (band.lower, band.upper) != (None, None) for band in bands)
-
-
-@pytest.mark.parametrize("study", list(STUDIES))
-def test_names_serve_as_folders_and_titles_name_no_figure_of_the_source(study):
     assert re.fullmatch(r"[a-z][a-z0-9-]*", study)
     assert not re.search(r"\b(fig|figure|table)\b", STUDIES[study].title, re.IGNORECASE)
 

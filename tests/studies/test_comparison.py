@@ -2,6 +2,7 @@ import json
 from dataclasses import replace
 
 import pytest
+from rich.console import Console
 
 from studies.comparison import (
     band_text,
@@ -16,7 +17,21 @@ from studies.comparison import (
     tally,
 )
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
-from studies.study import StudyResult
+from studies.stop_runner import StopRunner
+from studies.study import StudyFindings, StudyResult, run_study
+
+
+def test_a_band_missed_decides_and_without_a_band_nothing_does(made_up):
+    assert [comparison.result for comparison in made_up.comparisons] == ["holds", "misses", "shown"]
+    assert (made_up.result, made_up.fails) == ("misses", True)
+    unbounded = replace(made_up.study, quantities=made_up.study.quantities[2:])
+    assert StudyResult(unbounded, made_up.findings).result == "shown"
+
+
+def test_a_study_must_find_all_its_quantities(made_up):
+    study = replace(made_up.study, run=lambda stop_runner: StudyFindings({"time": StudyValue(18.0)}))
+    with pytest.raises(KeyError, match="share, count"):
+        run_study(study, StopRunner())
 
 
 def test_lines_have_the_papers_value_ours_and_the_band(made_up):
@@ -52,7 +67,7 @@ def test_a_study_of_ours_claims_nothing_of_the_paper(made_up):
     assert "Our own study" in paper_text(replace(made_up.study, paper=""))
 
 
-def test_the_document_holds_no_number_that_json_lacks(made_up):
+def test_document_and_table_hold_every_comparison_and_no_number_that_json_lacks(made_up):
     (study,) = json.loads(document([made_up]))["studies"]
     assert (study["result"], study["fails"]) == ("misses", True)
     assert [each["result"] for each in study["quantities"]] == ["holds", "misses", "shown"]
@@ -60,25 +75,20 @@ def test_the_document_holds_no_number_that_json_lacks(made_up):
     assert [each["band"] and each["band"]["of"] for each in study["quantities"]] == ["ours", "source", None]
     assert study["quantities"][2]["value"] is None
     assert study["quantities"][1]["band"]["upper_excluded"]
+    table = comparison_table([made_up, made_up])
+    assert {len(column) for column in table.values()} == {6}
+    assert table["status"][:3] == ["calibrated", "predicted", "predicted"]
+    assert table["result"][:3] == ["holds", "misses", "shown"]
+    assert table["band"][:3] == ["ours", "source", ""]
 
 
 def test_the_table_shows_texts_as_they_are(made_up):
-    from rich.console import Console
-
     console = Console(width=120)
     with console.capture() as capture:
         console.print(study_table(made_up))
     shown = capture.get()
     assert "[bold]share" in shown
     assert ours_text(made_up.comparisons[0]) in shown
-
-
-def test_every_comparison_is_a_row(made_up):
-    table = comparison_table([made_up, made_up])
-    assert {len(column) for column in table.values()} == {6}
-    assert table["status"][:3] == ["calibrated", "predicted", "predicted"]
-    assert table["result"][:3] == ["holds", "misses", "shown"]
-    assert table["band"][:3] == ["ours", "source", ""]
 
 
 def declared(made_up, value):
@@ -90,7 +100,7 @@ def declared(made_up, value):
     return StudyResult(study, replace(made_up.findings, values=values))
 
 
-def test_a_declared_miss_is_said_everywhere_with_its_reason(made_up):
+def test_a_declared_miss_is_said_everywhere_and_so_is_one_that_holds(made_up):
     result = declared(made_up, 9.56)
     assert "  misses, declared  predicted  [bold]share: " in "\n".join(lines(result))
     assert "  Declared missed: [bold]share. Heat." in lines(result)
@@ -100,9 +110,6 @@ def test_a_declared_miss_is_said_everywhere_with_its_reason(made_up):
     assert comparison_table([result])["declared_miss"] == ["", "Heat.", ""]
     assert tally([result, made_up]) == "6 values: 2 hold, 2 miss (1 declared), 2 shown"
     assert [line.split()[-1] for line in misses([result, made_up])] == ["result", "declared", "misses"]
-
-
-def test_a_declared_miss_that_holds_is_said(made_up):
     result = declared(made_up, 1.9)
     assert "  holds, declared missed  predicted  [bold]share: " in "\n".join(lines(result))
     assert [line.split()[-2:] for line in misses([result])][1:] == [["declared", "missed"]]

@@ -24,27 +24,19 @@ def test_the_compensation_that_ships_errs_along_a_record_as_it_does_on_the_rig(r
     top = maximum_pressure(case)
     found = errors(record, shipped(case.scenario.rig.compensation_model), case, top)
     assert set(found) == set(WAYS)
-    for way, setting in (("nothing", "none"), ("thermal", "thermal")):
+    for way, setting, channel in (("nothing", "none", "hysteresis"), ("thermal", "thermal", "thermal")):
         assert found[way].pressure_error == pytest.approx(pressure_error(record, setting, top), abs=0.03)
-    assert found["nothing"].force_error == pytest.approx(
-        force_error(record, "computed_force_hysteresis_2"), abs=0.05
-    )
-    assert found["thermal"].force_error == pytest.approx(
-        force_error(record, "computed_force_thermal_2"), abs=0.05
-    )
+        force = force_error(record, f"computed_force_{channel}_2")
+        assert found[way].force_error == pytest.approx(force, abs=0.05)
 
 
-def test_time_beyond_the_bound_is_counted_where_the_error_is(replay):
+def test_time_beyond_the_bound_is_counted_and_what_was_not_identified_has_no_error(replay):
     case, record = replay
     top = maximum_pressure(case)
     off = np.abs(record["measured_pressure_2"] - record["cylinder_pressure_1"]) >= 0.02 * top
     assert 1.0 < 100.0 * off.mean() < 99.0
-    assert errors(record, Fits(), case, top)["nothing"].beyond == pytest.approx(100.0 * off.mean())
-
-
-def test_what_was_not_identified_has_no_error(replay):
-    case, record = replay
-    found = errors(record, Fits(), case, maximum_pressure(case))
+    found = errors(record, Fits(), case, top)
+    assert found["nothing"].beyond == pytest.approx(100.0 * off.mean())
     assert math.isnan(found["full"].pressure_error) and math.isnan(found["thermal"].pressure_error)
     assert math.isnan(found["nothing"].force_error)
 

@@ -21,15 +21,14 @@ from uictest.plans.scenario import load
 from uictest.rig import bench
 from uictest.rig.bench.recipe import StopReplay
 
-UNITS = {
-    "time": "s",
-    "cylinder_pressure_1": "Pa",
-    "measured_pressure_2": "Pa",
-    "cylinder_pressure_2": "Pa",
-    "cylinder_pressure_thermal_2": "Pa",
-    "clamping_force_1": "N",
-    "computed_force_full_2": "N",
-}
+PRESSURES = (
+    "cylinder_pressure_1",
+    "measured_pressure_2",
+    "cylinder_pressure_2",
+    "cylinder_pressure_thermal_2",
+)
+FORCES = ("clamping_force_1", "computed_force_full_2")
+UNITS = {"time": "s", **dict.fromkeys(PRESSURES, "Pa"), **dict.fromkeys(FORCES, "N")}
 
 
 @pytest.fixture
@@ -48,15 +47,12 @@ def test_each_setting_is_judged_by_the_pressure_that_it_uses(recording, setting,
     assert pressure_error(recording, setting, 4e5) == pytest.approx(error)
 
 
-def test_the_true_pressure_may_be_compared_instead(recording):
+def test_the_true_pressure_may_be_compared_and_a_force_error_is_a_share_of_the_largest_force(recording):
     true = Recording(
         {**recording.channels, "tank_pressure_1": recording["cylinder_pressure_1"] + 2e3},
         {**UNITS, "tank_pressure_1": "Pa"},
     )
     assert pressure_error(true, "thermal", 4e5, "tank_pressure_1") == pytest.approx(1.0)
-
-
-def test_a_force_error_is_a_share_of_the_largest_force(recording):
     assert force_error(recording, force_channel("full")) == pytest.approx(5.0)
 
 

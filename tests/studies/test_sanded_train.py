@@ -7,13 +7,11 @@ from studies.sanded_train import GRAVITY, Nozzle, Sander, SandLaw, bisect, place
 
 SPEED, DEMAND = 24.6, 0.9
 LAW = SandLaw(slope=0.03, end=0.15)
+SECOND = Sander(7, 33.3)
 
 
-def test_without_sand_the_untreated_adhesion_alone_stops_the_train():
+def test_without_sand_the_rail_alone_stops_the_train_or_the_brake_where_the_rail_carries_it():
     assert stop(SPEED, DEMAND, LAW).distance == pytest.approx(SPEED**2 / (2 * 0.02 * GRAVITY), rel=1e-12)
-
-
-def test_the_brake_alone_decides_where_the_rail_carries_it():
     dry = SandLaw(slope=0.03, end=0.3, untreated=0.2)
     found = stop(SPEED, DEMAND, dry, [Sander(1, 1e3)]).distance
     assert found == pytest.approx(SPEED**2 / (2 * DEMAND), rel=1e-12)
@@ -35,14 +33,11 @@ def sanded(steps, sander, kept):
     return density
 
 
-def test_each_axle_leaves_a_share_and_none_ahead_of_the_nozzle_meets_sand():
+def test_sand_stays_at_its_place_and_each_axle_leaves_a_share():
     density = sanded(200, Sander(3, np.inf, 2.0), 0.8)
     assert list(density[:2]) == [0.0, 0.0]
     assert density[2:] == pytest.approx(2.0 * 0.8 ** np.arange(14))
-
-
-def test_sand_stays_at_its_place_until_an_axle_gets_there():
-    """In the first metres only axles that have passed a nozzle's first place meet its sand."""
+    # In the first metres only axles that have passed a nozzle's first place meet its sand.
     behind, run = places_of_axles(), 20
     density = sanded(run, Sander(3, np.inf, 1.0), 1.0)
     assert list(np.nonzero(density)[0]) == [j for j in range(2, 16) if round(behind[j] - behind[2]) < run]
@@ -57,12 +52,11 @@ def test_sand_that_every_axle_uses_up_helps_one_axle_alone():
 def test_more_sand_further_forward_and_kept_longer_shortens_the_stop():
     fixed = Sander(3, 33.3)
     distance = stop(SPEED, DEMAND, LAW, [fixed]).distance
-    assert stop(SPEED, DEMAND, LAW, [fixed, Sander(7, 33.3)]).distance < distance
+    both, turned = (stop(SPEED, DEMAND, LAW, pair).distance for pair in ([fixed, SECOND], [SECOND, fixed]))
+    assert both < distance
+    assert both == pytest.approx(turned, rel=1e-12)
     assert stop(SPEED, DEMAND, LAW, [Sander(1, 33.3)]).distance < distance
     assert stop(SPEED, DEMAND, LAW, [fixed], kept=0.9).distance < distance
-    assert stop(SPEED, DEMAND, LAW, [Sander(3, 33.3), Sander(7, 33.3)]).distance == pytest.approx(
-        stop(SPEED, DEMAND, LAW, [Sander(7, 33.3), Sander(3, 33.3)]).distance, rel=1e-12
-    )
 
 
 def test_a_device_lays_its_rate_in_thirty_seconds():
@@ -77,6 +71,5 @@ def test_shorter_steps_change_no_distance_by_half_a_metre():
 
 
 def test_bisection_finds_the_value_or_the_nearer_end():
-    assert bisect(lambda x: -x, 0.0, 4.0, -3.0) == pytest.approx(3.0, abs=1e-6)
-    assert bisect(lambda x: -x, 0.0, 4.0, -9.0) == pytest.approx(4.0, abs=1e-6)
-    assert bisect(lambda x: -x, 0.0, 4.0, 1.0) == pytest.approx(0.0, abs=1e-6)
+    for wanted, value in ((-3.0, 3.0), (-9.0, 4.0), (1.0, 0.0)):
+        assert bisect(lambda x: -x, 0.0, 4.0, wanted) == pytest.approx(value, abs=1e-6)

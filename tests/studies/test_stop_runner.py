@@ -36,12 +36,14 @@ def test_a_stop_is_run_once(runs):
     assert len(runs) == len(set(runs)) == 6 + 7
 
 
-def test_cases_of_the_same_id_are_different_stops(runs):
+def test_stops_of_the_same_id_or_noise_of_another_id_are_different_stops(runs):
     bench = StopRunner()
     cases = [bench.cases("slide-80", {"rig.compensation": setting})[0] for setting in ("none", "full")]
     assert cases[0].id == cases[1].id
     bench.repeated(cases, [0])
     assert len(runs) == 2
+    bench.repeated([replace(cases[0], id="other")], [0])  # the id seeds the noise
+    assert [name for name, _ in runs] == ["slide-80", "slide-80", "other"]
 
 
 def test_a_stop_that_fails_is_no_result(monkeypatch):
@@ -50,13 +52,6 @@ def test_a_stop_that_fails_is_no_result(monkeypatch):
     bench = StopRunner()
     with pytest.raises(RuntimeError, match="slide-80: the controller failed"):
         bench.repeated(bench.cases("slide-80"), [0])
-
-
-def test_the_id_seeds_the_noise_so_that_another_id_is_another_stop(runs):
-    bench = StopRunner()
-    case = bench.cases("slide-80")[0]
-    bench.repeated([case, replace(case, id="other")], [0])
-    assert [name for name, _ in runs] == [case.id, "other"]
 
 
 def test_work_is_returned_in_order():

@@ -9,9 +9,11 @@ from studies.study import Study, StudyFindings, run_study
 from studies.writing import table_text, write_comparison, write_figures, write_pages, write_tables
 
 
-def test_tables_lie_in_the_folder_of_their_study(made_up, tmp_path):
+def test_tables_lie_in_the_folder_of_their_study_and_the_comparison_beside_them(made_up, tmp_path):
     assert write_tables(tmp_path, made_up) == [tmp_path / "made-up" / "data.csv"]
     assert (tmp_path / "made-up" / "data.csv").read_text() == 'time_s,what\n0.0,"a, b"\n0.5,\n'
+    write_comparison(tmp_path / "new", [made_up])
+    assert {path.name for path in (tmp_path / "new").iterdir()} == {"comparison.csv", "studies.json"}
 
 
 def test_columns_of_different_lengths_are_rejected():
@@ -19,9 +21,11 @@ def test_columns_of_different_lengths_are_rejected():
         table_text({"a": [1, 2], "b": [1]})
 
 
-def test_the_comparison_lies_beside_the_studies(made_up, tmp_path):
-    write_comparison(tmp_path / "new", [made_up])
-    assert {path.name for path in (tmp_path / "new").iterdir()} == {"comparison.csv", "studies.json"}
+ARGUMENTS = ("made-up",)
+
+
+def page_of(folder, name="made-up"):
+    return (folder / name / "index.html").read_text("utf-8")
 
 
 def _line(figure):
@@ -32,14 +36,19 @@ def _drawn(result, drawing=_line):
     return replace(result, findings=replace(result.findings, drawings={"figure": drawing}))
 
 
-def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn(made_up, tmp_path):
+def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn_and_the_page_holds_it(made_up, tmp_path):
     pytest.importorskip("matplotlib")
     study = _drawn(made_up)
     paths = write_figures(tmp_path, study)
     assert [path.suffix for path in paths] == [".svg", ".png"]
     before = [path.read_bytes() for path in paths]
-    write_figures(tmp_path, study)
-    assert [path.read_bytes() for path in paths] == before
+    again = write_figures(tmp_path, study)
+    assert [path.read_bytes() for path in again] == before
+    write_pages(tmp_path, [study], [], ARGUMENTS, again)
+    assert re.search(r'<img src="data:image/(svg\+xml|png);base64,[A-Za-z0-9+/=]+"', page_of(tmp_path))
+    # The figures of an earlier run are not shown as those of this one.
+    write_pages(tmp_path, [study], [], ARGUMENTS, ())
+    assert "data:image" not in page_of(tmp_path).split("<main", 1)[1]
 
 
 def test_a_figure_that_cannot_be_drawn_leaves_nothing_behind(made_up, tmp_path):
@@ -51,13 +60,6 @@ def test_a_figure_that_cannot_be_drawn_leaves_nothing_behind(made_up, tmp_path):
     with pytest.raises(ZeroDivisionError):
         write_figures(tmp_path, _drawn(made_up, fail))
     assert list(tmp_path.rglob("*")) == []
-
-
-ARGUMENTS = ("made-up",)
-
-
-def page_of(folder, name="made-up"):
-    return (folder / name / "index.html").read_text("utf-8")
 
 
 def test_a_page_shows_the_papers_values_beside_ours(made_up, tmp_path):
@@ -81,21 +83,6 @@ def test_markup_in_a_study_is_text(made_up, tmp_path):
     write_pages(tmp_path, [hostile], [], ARGUMENTS)
     assert "<script>x" not in page_of(tmp_path)
     assert "<b>1" not in page_of(tmp_path)
-
-
-def test_the_page_holds_its_figure(made_up, tmp_path):
-    pytest.importorskip("matplotlib")
-    drawn = _drawn(made_up)
-    write_pages(tmp_path, [drawn], [], ARGUMENTS, write_figures(tmp_path, drawn))
-    assert re.search(r'<img src="data:image/(svg\+xml|png);base64,[A-Za-z0-9+/=]+"', page_of(tmp_path))
-
-
-def test_the_figure_of_an_earlier_run_is_not_shown_as_that_of_this_one(made_up, tmp_path):
-    pytest.importorskip("matplotlib")
-    drawn = _drawn(made_up)
-    write_figures(tmp_path, drawn)
-    write_pages(tmp_path, [drawn], [], ARGUMENTS, ())
-    assert "data:image" not in page_of(tmp_path).split("<main", 1)[1]
 
 
 def test_without_a_figure_the_page_says_why(made_up, tmp_path):

@@ -33,6 +33,16 @@ matrix:
   rail.friction: [0.08, 0.10, 0.12]
   brake.command: [80 %, 100 %]
 """
+TRAIN = """\
+schema: uictest/scenario/1
+name: study
+initial_speed: 14 km/h
+until: 12 km/h
+rail: {condition: wet-cleaning, friction: 0.05}
+criteria: uictest-rig
+expect: skipped
+train: [{}, {vehicle: crh380a, count: 2, brake: {command: 50 %}}]
+"""
 SLIP_BAND = Path(__file__).parent / "controllers"
 """A controller from outside with the commands of the built-in slip-band."""
 
@@ -48,10 +58,10 @@ def load(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(SCENARIO)
 
-    def write_and_load(text=MATRIX, *overrides, scenario="stop.yaml", stop=SCENARIO, **options):
+    def write_and_load(text=MATRIX, *overrides, stop=SCENARIO, **options):
         if stop != SCENARIO:
             Path("stop.yaml").write_text(stop)
-        Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + vary(text))
+        Path("study.sweep.yaml").write_text(HEAD + vary(text))
         return load_sweep(Path("study.sweep.yaml"), overrides, **options)
 
     return write_and_load

@@ -1,5 +1,6 @@
-"""The agreement of recorded and simulated stops."""
+"""The agreement of recorded and simulated stops, and how often the interval of its bias contains the bias."""
 
+import hashlib
 import math
 import os
 
@@ -8,9 +9,16 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy import stats
 
-from uictest.analysis.validation import ComparedStop, agreement_of, figures_of, read_validation
+from uictest.analysis.validation import (
+    ComparedStop,
+    agreement_of,
+    as_recorded,
+    figures_of,
+    read_validation,
+    seed_of,
+)
 from uictest.judging.evaluation import CaseResult
-from uictest.plans.scenario import PASS
+from uictest.plans.scenario import PASS, load
 
 RECORDED = [450.0, 460.0, 470.0, 455.0]
 NAN = math.nan
@@ -37,15 +45,12 @@ def test_relative_differences_are_shares_of_what_was_recorded_if_that_is_positiv
         assert agreement_of("vents", "1", recorded, [1.0, 4.0]).relative is None
 
 
-def test_one_stop_shows_a_difference_and_no_spread():
+def test_one_stop_shows_a_difference_and_no_spread_and_unknown_ones_do_not_count():
     agreement = agreement_of("d", "m", [450.0], [459.0])
     assert (agreement.absolute.bias, agreement.stops) == (9.0, 1)
     spread = agreement.absolute
     shown = (spread.deviation, spread.bias_low, spread.bias_high, spread.limits_low, spread.limits_high)
     assert all(map(math.isnan, shown))
-
-
-def test_stops_in_which_one_side_is_unknown_do_not_count():
     agreement = agreement_of("d", "m", [450.0, NAN, 470.0, 100.0], [451.0, 460.0, 473.0, NAN])
     assert (agreement.stops, agreement.absolute.bias) == (2, 2.0)
     assert agreement_of("d", "m", [NAN, 1.0], [1.0, NAN]) is None
@@ -96,15 +101,64 @@ def test_figures_of_wheelsets_are_numbered_from_1_which_leads():
     assert figures_of(CaseResult("a", "a.yaml", {}, PASS, "error")) == {}
 
 
-def test_a_pipe_is_not_waited_for(tmp_path):
-    pipe = tmp_path / "validation.json"
+def test_a_pipe_is_not_waited_for_and_deep_nesting_rejected(tmp_path):
+    pipe = tmp_path / "pipe.json"
     os.mkfifo(pipe)
     with pytest.raises(ValueError, match="no regular file"):
         read_validation(pipe)
-
-
-def test_deep_nesting_is_rejected(tmp_path):
     path = tmp_path / "validation.json"
     path.write_text("[" * 1_000_000)
     with pytest.raises(ValueError, match="nested too deeply"):
         read_validation(path)
+
+
+# Recorded and simulated stops of one and the same rig: a stand-in draws the stop that a seed gives, normal
+# about 450 m. The true bias is zero: an interval with 95 % must contain it in 95 of 100 campaigns.
+CAMPAIGNS = 1000
+WITHIN = 0.02
+"""Tolerance of a share of 1000 campaigns, some three of its standard deviations."""
+DIGESTS = [hashlib.sha256(f"record {k}".encode()).hexdigest() for k in range(30)]
+
+
+def distance(seed):
+    return 450.0 + float(np.random.Generator(np.random.Philox(seed)).standard_normal())
+
+
+def coverage(stops, seed_of_stop):
+    """Return the share of campaigns whose interval of the bias contains zero."""
+    covered = 0
+    for campaign in range(CAMPAIGNS):
+        digests = [hashlib.sha256(f"{campaign} {stop}".encode()).hexdigest() for stop in range(stops)]
+        recorded = np.random.Generator(np.random.PCG64([1, campaign])).normal(450.0, 1.0, stops)
+        simulated = [distance(seed_of_stop(campaign, digest)) for digest in digests]
+        agreement = agreement_of("d", "m", recorded.tolist(), simulated)
+        covered += agreement.absolute.bias_low <= 0.0 <= agreement.absolute.bias_high
+    return covered / CAMPAIGNS
+
+
+@pytest.mark.parametrize("stops", [2, 5, 30])
+def test_the_interval_of_the_bias_covers_it_as_often_as_it_says(stops):
+    assert coverage(stops, seed_of) == pytest.approx(0.95, abs=WITHIN)
+
+
+@pytest.mark.parametrize(("stops", "at_most"), [(5, 0.75), (30, 0.40)])
+def test_stops_that_share_a_draw_would_not(stops, at_most):
+    """The seed of the scenario for every stop: the more stops, the less the interval contains the bias."""
+    assert coverage(stops, lambda seed, digest: seed) < at_most
+
+
+def test_a_seed_depends_on_scenario_and_record_alone():
+    assert len({seed_of(0, digest) for digest in DIGESTS}) == len(DIGESTS)
+    assert seed_of(0, DIGESTS[0]) != seed_of(1, DIGESTS[0])
+    # The rule that docs/validation.md states, worked out by hand.
+    words = hashlib.sha256(f"7 {DIGESTS[0]}".encode()).hexdigest()
+    assert seed_of(7, DIGESTS[0]) == int(words[:8], 16) // 2
+
+
+def test_a_recorded_stop_is_simulated_under_its_own_seed(tmp_path):
+    path = tmp_path / "stop.yaml"
+    path.write_text("schema: uictest/scenario/1\nname: a\ninitial_speed: 120 km/h\nseed: 3\nrepeat: 1000\n")
+    [case] = load([path])
+    stop = as_recorded(case, "stop", 33.0, DIGESTS[1])
+    assert (stop.scenario.seed, float(stop.scenario.initial_speed)) == (seed_of(3, DIGESTS[1]), 33.0)
+    assert stop.scenario.seed + case.scenario.repeat < 2**32

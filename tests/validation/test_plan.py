@@ -7,6 +7,7 @@ from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.series import load_validation, plan_of_series
 
 STOP = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 100 km/h\nrail: {{condition: {rail}}}\n"
+ONE = "{scenario: dry.yaml, recordings: [one.csv]"
 BEGIN = "schema: uictest/validation/1\nname: my-train\nstops:\n"
 
 
@@ -44,16 +45,10 @@ speed_tolerance: 5 km/h
         ("[{scenario: dry.yaml, recordings: [three.csv]}]", "no such file: 'three.csv'"),
         ("[{scenario: dry.yaml}]", "missing key 'recordings'"),
         ("[{scenario: dry.yaml, recordings: []}]", "recordings"),
-        (
-            "[{scenario: dry.yaml, recordings: [one.csv]}, {scenario: wet.yaml, recordings: [one.csv]}]",
-            "'one.csv' is named twice",
-        ),
-        (
-            "[{scenario: dry.yaml, recordings: [one.csv], set: {brake.command: [80 %, 90 %]}}]",
-            "recordings belong to one stop, the scenario has 2 cases",
-        ),
+        (f"[{ONE}}}, {{scenario: wet.yaml, recordings: [one.csv]}}]", "'one.csv' is named twice"),
+        (f"[{ONE}, set: {{seed: [1, 2]}}}}]", "recordings belong to one stop, the scenario has 2 cases"),
         ("[]", "an empty list"),
-        ("[{scenario: dry.yaml, recordings: [one.csv], tune: true}]", "did you mean"),
+        (f"[{ONE}, tune: true}}]", "did you mean"),
         ("[{scenario: ../dry.yaml, recordings: [one.csv]}]", "dry.yaml"),
     ],
 )

@@ -1,18 +1,21 @@
-"""The command line."""
+"""The command line, from streams that the caller has closed and signals that ask to stop to its exit code."""
+
+from __future__ import annotations
 
 # An interrupt while this module is loaded still shows Python's traceback, so it imports little.
 import atexit
 import gc
 import os
+import signal
 import sys
+from collections.abc import Callable
+from types import FrameType
 
 __all__ = ["main"]
 
 
 def main() -> None:
     """Run the command line and leave the process with its exit code."""
-    from uictest.cli.start import leave_when_asked, open_closed_streams, raise_when_asked
-
     leave_when_asked()
     open_closed_streams()
     _start_lightly()
@@ -38,3 +41,49 @@ def _start_lightly() -> None:
     # What imports and stops make is hardly ever garbage: a run of one stop, which makes a million objects,
     # ends before the first search of them.
     gc.set_threshold(2_000_000)
+
+
+def open_closed_streams() -> None:
+    """Open streams that the caller has closed (`>&-`) on the null device.
+
+    Otherwise the next file that is opened gets the free number, and messages are written into it.
+    """
+    for number, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
+        if _is_closed(number):
+            null_device = os.open(os.devnull, os.O_RDWR)  # the lowest number that is free: this one
+            setattr(sys, name, open(null_device, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
+
+
+def _is_closed(number: int) -> bool:
+    try:
+        os.fstat(number)
+    except OSError:
+        return True
+    return False
+
+
+_INTERRUPTED = 2
+_ASKING = ("SIGINT", "SIGTERM", "SIGHUP")
+
+
+def leave_when_asked() -> None:
+    """Exit at once on a signal: nothing has begun, and an import could swallow an exception."""
+    _handle(_leave)
+
+
+def raise_when_asked() -> None:
+    """Raise KeyboardInterrupt on a signal, so that finished cases are reported and files are cleaned up."""
+    _handle(signal.default_int_handler)
+
+
+def _handle(handler: Callable[[int, FrameType | None], object]) -> None:
+    for name in _ASKING:
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        # Signals that the caller ignores stay ignored: nohup ignores SIGHUP.
+        if number is not None and signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, handler)
+
+
+def _leave(number: int, frame: FrameType | None) -> None:
+    os.write(2, b"uictest: interrupted\n")
+    os._exit(_INTERRUPTED)

@@ -39,11 +39,6 @@ def from_scenario(key: str, convert: Conversion | None = None) -> Any:
     return ScenarioValue(key, convert)
 
 
-def derived() -> Any:
-    """Declare that a field of a record is computed from several values of the scenario."""
-    return None
-
-
 def scenario_values(record: type[Record]) -> dict[str, ScenarioValue]:
     """Return the fields of a record that are declared by :func:`from_scenario`."""
     declared = {name: getattr(record, name, None) for name in fields_of(record)}

@@ -239,9 +239,9 @@ def normal_volume(mass: float) -> float:
     return mass / NORMAL_DENSITY
 
 
-def to_12_digits(value: float) -> float:
-    """Return a converted bound or definition as it was written: without the digits that conversion adds."""
-    return float(f"{value:.12g}")
+def as_written(value: float, unit: str) -> float:
+    """Return an SI value in the unit that it was written in, without the digits that conversion adds."""
+    return float(f"{in_unit(value, unit):.12g}")
 
 
 def value_text(value: float, unit: str) -> str:

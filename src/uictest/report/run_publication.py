@@ -185,27 +185,21 @@ def _criterion_column(results: Iterable[_Case], criterion: str) -> Column[_Case]
     return Column(heading=criterion, unit=unit, text=text, rank=FAILING, right=True)
 
 
-class _Wheelset(NamedTuple):
-    case: _Case
-    position: int
-    measures: Mapping[str, float]
-
-
 def wheelsets_table(results: Sequence[_Case]) -> Table:
     """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`cases_table`."""
-    ranges = range_columns(measures.WHEELSET_COLUMNS) if any_repeated(results) else ()
-    columns: list[Column[_Wheelset]] = [
-        Column(key="id", value=lambda row: row.case.id),
-        Column(key="wheelset", value=lambda row: row.position),
-        *keyed_columns(measures.WHEELSET_COLUMNS, lambda row: row.measures),
-        *keyed_columns(ranges, lambda row: range_cells(row.case, measures.WHEELSET_COLUMNS, row.position)),
-    ]
+    repeated = any_repeated(results)
+    ranges = range_columns(measures.WHEELSET_COLUMNS) if repeated else ()
     rows = [
-        _Wheelset(result, position, wheelset)
+        {
+            "id": result.id,
+            "wheelset": position,
+            **wheelset,
+            **(range_cells(result, measures.WHEELSET_COLUMNS, position) if repeated else {}),
+        }
         for result in results
         for position, wheelset in enumerate(result.wheelsets, start=1)
     ]
-    return Table(columns, rows, name="wheelsets")
+    return table_of("wheelsets", rows, ["id", "wheelset", *measures.WHEELSET_COLUMNS, *ranges])
 
 
 class _Judged(NamedTuple):

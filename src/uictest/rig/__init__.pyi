@@ -60,14 +60,15 @@ from .simulation import (
     simulate_trains as simulate_trains,
 )
 from .stepped import SteppedTrain as SteppedTrain, train_memory as train_memory
-from .stops import STEP as STEP, compiled_rig as compiled_rig
 from .train_assembly import Coupling as Coupling, assemble_train as assemble_train, coupling_of as coupling_of
 from .train_stop import (
+    STEP as STEP,
     FinishedStop as FinishedStop,
     StopInputs as StopInputs,
     TrainInputs as TrainInputs,
     TrainStop as TrainStop,
     alone as alone,
+    compiled_rig as compiled_rig,
     empty_trace as empty_trace,
     stacked as stacked,
 )

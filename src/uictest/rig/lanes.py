@@ -132,9 +132,10 @@ def _run_queue(trains: Trains, numbers: NDArray[np.int64], width: int | None) ->
     cars, steps = len(trains.parameters), int(trains.parameters["steps_per_cycle"][0, order[0]])
     blank = Blank(*(np.zeros(number, layout) for layout, number in _OF_CAR))
     running, memories = np.empty(width, np.int64), np.empty((cars, width), RAIL_MEMORY)
-    _compiled_queue(width)(
-        Queue(_blocks_of_lanes(cars, steps, width), blank, trains, order, running, memories)
-    )
+    counts = [(layout, cars * number) for layout, number in _BLOCKS]
+    counts += [(MODULE_STEP, 4 * cars * steps), (COUPLER, cars - 1)]
+    lanes = Lanes(*(block(layout, width, count) for layout, count in counts))
+    _compiled_queue(width)(Queue(lanes, blank, trains, order, running, memories))
 
 
 def _longest_first(
@@ -147,12 +148,6 @@ def _longest_first(
     adhesion = np.minimum(rail[cases, FRICTIONS].mean(axis=-1), _BRAKED_ADHESION)
     expected = parameters["initial_speed"][cases] / np.maximum(adhesion, _LEAST_ADHESION)
     return cases[np.argsort(-expected, kind="stable")]
-
-
-def _blocks_of_lanes(cars: int, steps: int, width: int) -> Lanes:
-    counts = [(layout, cars * number) for layout, number in _BLOCKS]
-    counts += [(MODULE_STEP, 4 * cars * steps), (COUPLER, cars - 1)]
-    return Lanes(*(block(layout, width, count) for layout, count in counts))
 
 
 @cache

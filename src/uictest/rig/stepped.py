@@ -16,8 +16,7 @@ from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.records import TrainRecords
 from uictest.rig.model.state import BOGIE, CAR, COUPLER, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.stops import STEP
-from uictest.rig.train_stop import FinishedStop, TrainInputs, empty_trace, finished_cars, rows_of_trace
+from uictest.rig.train_stop import STEP, FinishedStop, TrainInputs, empty_trace, finished_cars, rows_of_trace
 
 STOP_MEMORY: Final[Any] = np.dtype(
     [

@@ -92,7 +92,7 @@ def batch_of(
     baseline: comparison.Baseline | None = None,
     drawn_first: Collection[str] = (),
 ) -> Batch:
-    """Return the batch of cases and series to simulate.
+    """Return the batch of cases and series to simulate; `baseline` and `drawn_first` as of :class:`Batch`.
 
     Args:
         cases: to run.
@@ -102,8 +102,6 @@ def batch_of(
         settings: settings of the run; their parts and domains are found here.
         validated: the validation that says whether each case lies in its domain, in place of those that cases
             name.
-        baseline: to compare with.
-        drawn_first: ids of the cases whose stops a page draws before all others.
 
     Compensations are identified here, before any display: up to minutes. Raises InvalidInputError where a
     validation cannot be read, and ScenarioErrors for implausible trains if the settings are strict.

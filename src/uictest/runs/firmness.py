@@ -197,7 +197,11 @@ class _VariedStops:
 
 
 def _numbers_of(case: scenario.Case) -> dict[_Identity, RangedNumber]:
-    return {_number_identity(number): number for number in sweeps.ranged_numbers(case.scenario)}
+    numbers: dict[_Identity, RangedNumber] = {}
+    for number in sweeps.ranged_numbers(case.scenario):
+        low, high = number.ends
+        numbers[number.key, number.value.text, low.text, high.text] = number
+    return numbers
 
 
 def _varied_car(
@@ -226,11 +230,6 @@ def _varied_train(case: scenario.Case, run: FirmnessRun) -> chunked.VariedTrain:
 def _on_four_calipers(stated: scenario.Scenario) -> scenario.Scenario:
     four = stated.rig.model_copy(update={"topology": "four-caliper"})
     return stated.model_copy(update={"rig": four})
-
-
-def _number_identity(number: RangedNumber) -> _Identity:
-    low, high = number.ends
-    return number.key, number.value.text, low.text, high.text
 
 
 def _judged_series(planned: series_plans.Series, stops: Sequence[Sequence[CaseResult]]) -> Drawn:

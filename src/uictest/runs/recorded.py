@@ -145,16 +145,13 @@ def _recorded_series_of(
 def _require_distinct(
     planned: series.Series, stops: Sequence[series.PlannedStop], files: Sequence[RecordedFile]
 ) -> None:
-    """Raise InvalidInputError for two stops of one id, and for a copy of a recording.
-
-    One stop counted twice would feign certainty.
-    """
+    """Raise InvalidInputError for two stops of one id, and for a copy: counted twice it feigns certainty."""
     ids: set[str] = set()
-    paths: dict[str, Path] = {}
     for stop in stops:
         if stop.case.id in ids:
             raise InvalidInputError(f"{planned.path}: a second recorded stop {stop.case.id!r}")
         ids.add(stop.case.id)
+    paths: dict[str, Path] = {}
     for file in files:
         if (path := paths.setdefault(file.digest, file.path)) != file.path:
             raise InvalidInputError(f"{planned.path}: {file.path} is a copy of {path}: one stop counts once")

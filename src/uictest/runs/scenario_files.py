@@ -96,16 +96,12 @@ def _files_matching(paths: Sequence[Path], pattern: str, is_one: Callable[[Path]
     for path in paths:
         files = [path]
         if path.is_dir():
-            below = sorted(path.rglob(pattern), key=Path.as_posix)
-            files = [file for file in below if not _is_hidden(file.relative_to(path))]
+            below = (file.relative_to(path) for file in sorted(path.rglob(pattern), key=Path.as_posix))
+            files = [path / file for file in below if not any(part.startswith(".") for part in file.parts)]
         for file in filter(is_one, files):
             if file.absolute() not in seen:
                 seen.add(file.absolute())
                 yield file
-
-
-def _is_hidden(path: Path) -> bool:
-    return any(part.startswith(".") for part in path.parts)
 
 
 def load_series(

@@ -76,17 +76,8 @@ class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the pro
     """`maxfail` cases missed their expectation; the message gives their number and the first."""
 
 
-@dataclass(frozen=True, slots=True)
-class FinishedSweep:
-    """A sweep whose results are written.
-
-    Args:
-        result: result of the sweep.
-        document: the text of results.json.
-        content: what its reports show.
-        publication: what they were written from.
-
-    """
+class FinishedSweep(NamedTuple):
+    """A sweep whose results are written: these, the text of results.json, and what its reports show."""
 
     result: report.SweepResult
     document: str
@@ -155,9 +146,14 @@ def publish(
     request: SweepRequest, store: ChunkStore, summary: summaries.SweepSummary, observer: Observer
 ) -> FinishedSweep:
     """Write the result of a summarised sweep and its reports. Raises OSError."""
-    frontier = (
-        None if request.search is None else _searched_frontier(request, summary, request.search, observer)
-    )
+    frontier = None
+    if (search := request.search) is not None:
+        observer.searching(search.key)
+        runner = request.runner()
+        scans = search.run(
+            summary.verdicts, lambda plan, indices: summaries.verdicts_of(plan, indices, runner, request.jobs)
+        )
+        frontier = report.Frontier(search.key, tuple(scans))
     worst = _run_worst(request, summary, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst.results, subjects=worst.subjects)
     if request.firm:
@@ -207,46 +203,28 @@ def _run_worst(request: SweepRequest, summary: summaries.SweepSummary, folder: P
     return _WorstCases(tuple(results), campaign.descriptions_of(cases), traces)
 
 
-def _searched_frontier(
-    request: SweepRequest,
-    summary: summaries.SweepSummary,
-    search: summaries.FrontierSearch,
-    observer: Observer,
-) -> report.Frontier:
-    observer.searching(search.key)
-    runner = request.runner()
-    scans = search.run(
-        summary.verdicts, lambda plan, indices: summaries.verdicts_of(plan, indices, runner, request.jobs)
-    )
-    return report.Frontier(search.key, tuple(scans))
-
-
 def _nominal_with_firmness(request: SweepRequest, observer: Observer) -> tuple[evaluation.CaseResult, ...]:
     """Return the result of the case that is varied, of a train those of all cars, with how firm each is.
 
     Raises KeyboardInterrupt.
     """
-    cases = _nominal_cases(request.selection.plan.base)
+    base = request.selection.plan.base
+    train = base.train
+    cases = [base]
+    if train is not None:
+        cases = [
+            replace(
+                base,
+                id=f"{train.train}[{scenario.CAR}={number}]",
+                scenario=stated,
+                parameters={scenario.CAR: str(number)},
+                train=replace(train, number=number),
+            )
+            for number, stated in enumerate(train.scenarios, start=1)
+        ]
     settings = _run_settings(request, cases, campaign.RecordingRequest("none"))
     settings = replace(settings, firm=True, calibration=request.calibration)
     return tuple(simulate_cases(cases, settings, observer, unit="stops").whole())
-
-
-def _nominal_cases(base: scenario.Case) -> list[scenario.Case]:
-    """Return the case that is varied, of a train those of all cars."""
-    train = base.train
-    if train is None:
-        return [base]
-    return [
-        replace(
-            base,
-            id=f"{train.train}[{scenario.CAR}={number}]",
-            scenario=stated,
-            parameters={scenario.CAR: str(number)},
-            train=replace(train, number=number),
-        )
-        for number, stated in enumerate(train.scenarios, start=1)
-    ]
 
 
 def _run_settings(
@@ -352,23 +330,18 @@ class _Failures:
         """Count the missed cases of a finished chunk. Raises MaxfailReached."""
         if self._maxfail is None:
             return
-        missed = _missed_rows(content)
+        import pyarrow.parquet as pq
+
+        names = ["met", "outcome", "id", "reason"]
+        columns = pq.read_table(io.BytesIO(content), columns=names).to_pydict()
+        rows = zip(*(columns[name] for name in names), strict=True)
+        missed = [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
         if missed and not self._first:
             outcome, name, reason = missed[0]
             self._first = f"{name}: {outcome}, {reason_missed(reason)}"
         self._count += len(missed)
         if self._count >= self._maxfail:
             raise MaxfailReached(f"{report.counted(self._count, 'case')} not met, the first: {self._first}")
-
-
-def _missed_rows(content: bytes) -> list[tuple[str, str, str]]:
-    """Return outcome, id and reason of the missed cases in a chunk."""
-    import pyarrow.parquet as pq
-
-    names = ["met", "outcome", "id", "reason"]
-    columns = pq.read_table(io.BytesIO(content), columns=names).to_pydict()
-    rows = zip(*(columns[name] for name in names), strict=True)
-    return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
 
 
 class ToleranceError(ValueError):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Final
+from typing import NamedTuple
 
 from uictest import report
 from uictest.analysis import validation
@@ -22,8 +22,6 @@ from uictest.runs.batch import simulate_cases
 from uictest.runs.observer import Observer
 from uictest.runs.recorded import RecordedFile, named_map, read_files
 from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
-
-_DISTANCE: Final = "braking_distance_m"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +45,14 @@ def recorded_stops(
     stops = _counted_once(
         [stop for comparison in plan.comparisons for stop in _planned_stops(plan, comparison, read, trusted)]
     )
-    _require_distinct(plan, stops)
+    files: dict[str, Path] = {}
+    for stop in stops:  # each is compared with the simulation of its id
+        if stop.case.id in files:
+            raise InvalidInputError(
+                f"{plan.path}: a second recorded stop {stop.case.id!r}, of {stop.file.path} and"
+                f" {files[stop.case.id]}: rename one of the files"
+            )
+        files[stop.case.id] = stop.file.path
     return stops, read
 
 
@@ -75,12 +80,6 @@ def compared_stop(
     return replace(compared, not_counted=compared.not_counted or _missing_end(compared, simulated))
 
 
-def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
-    """Return the conditions of a stop as planned and as recorded."""
-    parts = campaign.parts_of_cases([replace(stop.planned.case, id="planned"), stop.case])
-    return [validation.conditions_of(of_case) for of_case in parts.values()]
-
-
 def _planned_stops(
     plan: series.ValidationPlan,
     planned: series.PlannedComparison,
@@ -97,18 +96,6 @@ def _planned_stops(
         if file.stop is not None:
             case = validation.as_recorded(planned.case, case_id, _initial_speed(file.stop), file.digest)
         yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
-
-
-def _require_distinct(plan: series.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
-    """Raise InvalidInputError where two stops have one id: each is compared with the simulation of its id."""
-    files: dict[str, Path] = {}
-    for stop in stops:
-        if stop.case.id in files:
-            raise InvalidInputError(
-                f"{plan.path}: a second recorded stop {stop.case.id!r}, of {stop.file.path} and"
-                f" {files[stop.case.id]}: rename one of the files"
-            )
-        files[stop.case.id] = stop.file.path
 
 
 def _counted_once(stops: Sequence[RecordedStopOfPlan]) -> list[RecordedStopOfPlan]:
@@ -146,13 +133,12 @@ def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult
     if simulated.outcome == "error":
         return f"simulation: {simulated.reason}"
     for figures, of_what in ((stop.recorded, "record"), (stop.simulated, "simulation")):
-        if math.isnan(figures[_DISTANCE]):
+        if math.isnan(figures["braking_distance_m"]):
             return f"the {of_what} has no braking distance: it ends before standstill, or has a gap"
     return ""
 
 
-@dataclass(frozen=True, slots=True)
-class ValidationRun:
+class ValidationRun(NamedTuple):
     """A validation, and whether every simulation for it came to an end."""
 
     validation: validation.Validation
@@ -171,8 +157,12 @@ def run_validation(
     settings = campaign.RunSettings(jobs, campaign.RecordingRequest("none"))
     simulated = simulate_cases([stop.case for stop in usable], settings, observer, unit="stops").whole()
     results = dict(zip((stop.case.id for stop in usable), simulated, strict=True))
-    compared = [compared_stop(stop, results.get(stop.case.id)) for stop in stops]
-    pairs = list(map(validation.StopUnderConditions, compared, map(conditions_of_stop, stops)))
+    pairs: list[validation.StopUnderConditions] = []
+    for stop in stops:
+        parts = campaign.parts_of_cases([replace(stop.planned.case, id="planned"), stop.case])
+        conditions = [validation.conditions_of(of_case) for of_case in parts.values()]
+        compared = compared_stop(stop, results.get(stop.case.id))
+        pairs.append(validation.StopUnderConditions(compared, conditions))
     complete = all(result.outcome != "error" for result in simulated)
     return ValidationRun(validation.validation_of(plan, pairs, read), complete)
 

@@ -8,14 +8,11 @@ import pytest
 from uictest.plans import series
 
 
-def test_valid_files_exit_0_and_say_how_many(call, scenario):
+def test_valid_files_exit_0_and_errors_of_every_named_file_are_shown_with_their_places(call, scenario):
     scenario("a")
     scenario("b", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = call("check", code=0)
     assert (answer.out, answer.err) == ("", "uictest: 2 scenarios with 3 cases, no error\n")
-
-
-def test_every_error_of_every_named_file_is_shown_with_its_place(call, scenario):
     scenario("a", "vehicel: x\n")
     scenario("b", "seed: -1\n")
     answer = call("check", code=4)
@@ -43,7 +40,7 @@ def test_a_word_for_a_fault_is_an_error_at_its_place(call, scenario):
     assert "a mapping of at, kind, part, until, value, wheelset" in answer.err
 
 
-def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(call, scenario, workplace):
+def test_what_a_sweep_varies_is_warned_of_in_the_file_that_it_extends(call, scenario, workplace):
     scenario("a", "rail: {condition: wet, friction: 0.1}\n")
     sweep = workplace / "scenarios" / "b.sweep.yaml"
     sweep.write_text(
@@ -52,6 +49,13 @@ def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(call
     )
     call("check", code=0, says="warning: rail.friction: the scenario's own 0.1 lies OUTSIDE the range")
     call("check", "scenarios", sweep, code=0, says="1 scenario with 1 case and 1 sweep, no error")
+    scenario("a", "vehicle: {extends: intercity-180, body: {mass: 150 t}}\n")
+    sweep = workplace / "scenarios" / "b.sweep.yaml"
+    sweep.write_text(
+        "schema: uictest/scenario/1\nname: b\nextends: a.yaml\nvary: {matrix: {brake.command: [90 %]}}\n"
+    )
+    answer = call("check", sweep, code=0)
+    assert "scenarios/a.yaml:4:48: vehicle.body.mass: warning: axle load 40.7 t" in answer.err
 
 
 def _broken_in(monkeypatch, name):
@@ -145,13 +149,3 @@ def test_an_implausible_train_is_a_warning_in_its_own_file_and_an_error_if_stric
     strict = call("check", path, "--strict", "--format", "json", code=4, says="2 errors")
     assert "warning" not in strict.err
     assert [each["key"] for each in json.loads(strict.out)] == ["vehicle.wheelset.radius"] * 2
-
-
-def test_the_base_of_a_sweep_is_warned_of_in_the_file_that_it_extends(call, scenario, workplace):
-    scenario("a", "vehicle: {extends: intercity-180, body: {mass: 150 t}}\n")
-    sweep = workplace / "scenarios" / "b.sweep.yaml"
-    sweep.write_text(
-        "schema: uictest/scenario/1\nname: b\nextends: a.yaml\nvary: {matrix: {brake.command: [90 %]}}\n"
-    )
-    answer = call("check", sweep, code=0)
-    assert "scenarios/a.yaml:4:48: vehicle.body.mass: warning: axle load 40.7 t" in answer.err

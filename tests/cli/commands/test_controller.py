@@ -62,8 +62,17 @@ def test_what_is_missed_exits_1_is_drawn_and_is_a_failure_in_junit(call):
     assert "<h3>good rail</h3>" not in page  # nothing is missed there alone
 
 
-def test_a_controller_that_raises_exits_3(call):
+def test_a_controller_is_given_parameters_and_a_class_and_one_that_raises_exits_3(call):
     call("controller", "check", program("raise ValueError"), code=3)
+    path = program()
+    path.write_text(path.read_text() + "\nclass Other:\n    def step(self, inputs): pass\n")
+    assert call("controller", "check", path, "--class", "Fills").code == 1
+    path = program("pass")
+    path.write_text(
+        path.read_text().replace("config): pass", "config): assert config.parameters == {'a': 2.5}")
+        + 'PARAMETERS = {"a": {"default": 1.0, "unit": "s"}}\n'
+    )
+    assert call("controller", "check", path, "--set", "a=2.5").code == 1
 
 
 CONTROLLER = "controller: {python: fills.py, class: Fills}\n"
@@ -82,21 +91,6 @@ def test_a_part_and_a_scenario_name_their_controller(call, text):
     Path("file.yaml").write_text(text, "utf-8")
     answer = call("controller", "check", "file.yaml", code=1)
     assert "fail vents-sliding" in answer.out
-
-
-def test_parameters_are_set_as_texts_of_yaml(call):
-    path = program("pass")
-    path.write_text(
-        path.read_text().replace("config): pass", "config): assert config.parameters == {'a': 2.5}")
-        + 'PARAMETERS = {"a": {"default": 1.0, "unit": "s"}}\n'
-    )
-    assert call("controller", "check", path, "--set", "a=2.5").code == 1
-
-
-def test_a_class_is_named_where_there_are_several(call):
-    path = program()
-    path.write_text(path.read_text() + "\nclass Other:\n    def step(self, inputs): pass\n")
-    assert call("controller", "check", path, "--class", "Fills").code == 1
 
 
 def test_a_hang_ends_and_leaves_no_process(call):

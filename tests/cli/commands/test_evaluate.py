@@ -1,3 +1,5 @@
+"""`uictest evaluate`: recordings as they are judged, also those that contradict their scenario."""
+
 import json
 from pathlib import Path
 
@@ -7,7 +9,7 @@ import pytest
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import ReadingInterruptedError, writer_of
 
-from ..conftest import STATED, rolling_train
+from ..conftest import STATED, manifest_of, results_of, rolling_train
 
 OWN_MAP = "schema: uictest/channel-map/1\nname: own\nextends: uictest\n"
 
@@ -27,7 +29,7 @@ def test_a_stop_is_judged_and_reported_as_by_run(call, stop, monkeypatch):
     assert "distance: integrated from speed" in answer.err
     files = {path.name for path in Path("reports/latest/").iterdir()}
     assert {"results.json", "junit.xml", "summary.csv", "manifest.json", "criteria.csv"} <= files
-    manifest = json.loads(Path("reports/latest/manifest.json").read_text())
+    manifest = manifest_of()
     assert {"Stop 1.csv", "library:channel_maps/uictest.yaml"} <= manifest["inputs"].keys()
     assert 'name="stop-1"' in Path("reports/j.xml").read_text()
     assert "stop-1" in Path("step.md").read_text()
@@ -62,11 +64,17 @@ def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_r
         assert "one-caliper" not in html
 
 
-def test_a_scenario_states_everything_and_a_case_of_several_is_chosen(call, stop, scenario):
+def test_one_stop_is_judged_by_a_scenario_or_one_of_its_cases_and_files_of_one_name_get_different_ids(
+    call, stop, scenario, workplace
+):
     from_36 = ("--set", "initial_speed=36 km/h")
     call("evaluate", stop, "--scenario", scenario("a", "rail: {condition: wet}\n"), *from_36, code=0)
     path = scenario("a", "matrix: {brake.command: [80 %, 90 %]}\n")
     call("evaluate", stop, "--scenario", path, "-k", "command=80", *from_36, code=0)
+    (workplace / "other").mkdir()
+    (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
+    answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
+    assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]
 
 
 @pytest.mark.parametrize(("option", "kept"), [((), True), (("--record", "none"), False)])
@@ -103,13 +111,6 @@ def test_a_record_without_wheel_speeds_is_inconclusive_and_an_unusable_one_an_er
     assert "time-duplicate" in answer.err
 
 
-def test_files_of_one_name_get_different_ids(call, stop, workplace):
-    (workplace / "other").mkdir()
-    (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
-    answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
-    assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]
-
-
 @pytest.mark.parametrize("preparation", ["raster: 0 ms", "low_pass: nan Hz", "trigger_lead: -1 s"])
 def test_a_preparation_that_cannot_be_is_refused_at_its_place(call, stop, workplace, preparation):
     (workplace / "own.yaml").write_text(f"{OWN_MAP}preparation:\n  {preparation}\n")
@@ -118,17 +119,14 @@ def test_a_preparation_that_cannot_be_is_refused_at_its_place(call, stop, workpl
     assert key in refused.err
 
 
-def test_the_trigger_of_the_option_counts_where_the_map_states_a_time(call, stop, workplace):
+def test_list_shows_channels_and_the_preset_and_the_trigger_of_the_option_counts(call, stop, workplace):
+    answer = call("evaluate", stop, "--list", code=0)
+    assert "speed\tm/s\t1050\t0 .. 10" in answer.out
+    assert answer.out.splitlines()[-1] == "the preset uictest fits (--map uictest)"
     (workplace / "own.yaml").write_text(OWN_MAP + "preparation: {trigger_time: 2 s}\n")
     command = ("evaluate", stop, *STATED, "--map", "own.yaml")
     assert "trigger: at 2 s, stated by the user" in call(*command).err
     assert "trigger: the record begins with it" in call(*command, "--trigger", "start").err
-
-
-def test_list_shows_channels_and_the_preset_that_fits(call, stop):
-    answer = call("evaluate", stop, "--list", code=0)
-    assert "speed\tm/s\t1050\t0 .. 10" in answer.out
-    assert answer.out.splitlines()[-1] == "the preset uictest fits (--map uictest)"
 
 
 @pytest.mark.parametrize(
@@ -183,3 +181,73 @@ def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(call, monk
     answer = call("evaluate", "stop.csv", *STATED, code=3)
     assert "/small: No space left on device to read stop.csv" in answer.err
     assert "damaged" not in answer.err
+
+
+RASTER = 0.1
+REASON = "recorded 124 km/h, scenario slip-120 says 120 km/h, tolerance 3 km/h"
+
+
+def write(name, time, speed, **more):
+    """Write the record of a train of rolling wheels."""
+    names = ("speed", *(f"wheel_speed_{n}" for n in (1, 2, 3, 4)))
+    table = {"time [s]": time, **{f"{channel} [m/s]": speed for channel in names}, **more}
+    samples = np.column_stack(list(table.values()))
+    np.savetxt(name, samples, "%.6g", ",", header=",".join(table), comments="")
+
+
+@pytest.fixture
+def judge(call):
+    """Judge a stop at 1 m/s2 from a speed in km/h, the brake command at 2 s, by a scenario."""
+
+    def run(speed, scenario, *options, **expected):
+        time = np.arange(0.0, 60.0, 0.02)
+        write("a.csv", time, np.clip(speed / 3.6 - np.clip(time - 2.0, 0.0, None), 0.0, None))
+        return call("evaluate", "a.csv", "--scenario", scenario, "--trigger", "2 s", *options, **expected)
+
+    return run
+
+
+@pytest.mark.parametrize("speed", [124, 100, 116.9])
+def test_a_stop_from_another_speed_never_passes_as_the_test(judge, speed):
+    answer = judge(speed, "slip-120", code=1)
+    assert "outcome=invalid" in answer.out
+    assert f"recorded {speed:.4g} km/h, scenario slip-120 says 120 km/h, tolerance 3 km/h" in answer.out
+
+
+def test_every_report_has_the_layer_and_both_numbers(call, judge):
+    judge(124, "slip-120", code=1)
+    call("report", "reports/latest", "--format", "html", "-o", "again")
+    folder = Path("reports/latest")
+    for path in (
+        folder / "criteria.csv",
+        folder / "junit.xml",
+        folder / "index.html",
+        Path("again/index.html"),
+    ):
+        assert REASON in path.read_text("utf-8"), path
+    results = results_of(folder)
+    [verdict] = [each for each in results["cases"][0]["criteria"] if each["id"] == "record-initial-speed"]
+    assert (verdict["layer"], verdict["upper"]) == ("record", 3.0)
+    assert verdict["value"] == pytest.approx(4.0, abs=0.001)
+    assert verdict["definition"]["bound"] == "<= 3 km/h (chosen)"
+    assert "the record agrees with its scenario (record)" in (folder / "index.html").read_text("utf-8")
+
+
+def test_the_checks_that_hold_are_one_sentence_with_those_that_were_not_made(judge):
+    assert "checks of the record: all hold, 3 not made" in judge(120, "dry-120", "-v").out
+    page = Path("reports/latest/index.html").read_text("utf-8")
+    assert "Checks of the record: all hold, 3 not made." in page
+
+
+def test_a_log_of_other_speeds_passes_no_stop_and_says_how_many(call):
+    """As a log of public buses, 27 stops from 24 to 57 km/h, judged as a slip test from 120 km/h."""
+    speeds = np.linspace(24.0, 57.0, 27) / 3.6
+    courses = [(np.full(100, v), np.linspace(v, 0.0, round(v / RASTER)), np.zeros(50)) for v in speeds]
+    brake = np.concatenate([np.repeat((0.0, 1.0, 0.0), list(map(len, course))) for course in courses])
+    speed = np.concatenate([part for course in courses for part in course])
+    write("bus.csv", RASTER * np.arange(len(speed)), speed, brake_command=brake)
+    answer = call("log", "bus.csv", "--scenario", "slip-120", code=1, says="27 cases: 27 invalid")
+    assert "invalid by the record: 27 of 27 stops (record-initial-speed 27)" in answer.out
+    wide = ("--set", "record.tolerances.initial_speed=100 km/h")
+    assert "by the record" not in call("log", "bus.csv", "--scenario", "slip-120", *wide).out
+    call("log", "bus.csv", *STATED, code=0, says="27 cases: 27 pass")

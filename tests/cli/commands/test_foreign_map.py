@@ -12,6 +12,8 @@ import pytest
 import uictest
 from tests.service_log import logs
 
+from ..conftest import results_of
+
 WHEELSETS = (1, 2, 3, 4)
 CHANNELS = {
     "time": ("s", "Zeit", "s", 1.0),
@@ -102,20 +104,16 @@ def measures_of(results):
     }
 
 
-def latest():
-    return json.loads(Path("reports/latest/results.json").read_text("utf-8"))
-
-
 def evaluated(call):
     call("evaluate", "wet.csv", "--map", "map.yaml", "--scenario", "wet.yaml")
-    return measures_of(latest())
+    return measures_of(results_of())
 
 
 def logged(call):
     call("log", "wet.csv", "--map", "map.yaml", "--scenario", "wet.yaml")
     with Path("reports/latest/tables/campaign_friction.csv").open(encoding="utf-8") as file:
         [friction] = csv.DictReader(file)
-    return measures_of(latest()) | {"friction": float(friction["friction"])}
+    return measures_of(results_of()) | {"friction": float(friction["friction"])}
 
 
 def fitted(call):
@@ -127,7 +125,7 @@ def fitted(call):
 
 def series(call):
     call("evaluate", "own.series.yaml")
-    return measures_of(latest()["series"])
+    return measures_of(results_of()["series"])
 
 
 def validated(call):
@@ -144,7 +142,7 @@ def evaluated_in_python(call):
 
 def series_in_python(call):
     uictest.evaluate("own.series.yaml", output="reports")
-    return measures_of(latest()["series"])
+    return measures_of(results_of()["series"])
 
 
 def validated_in_python(call):

@@ -1,13 +1,15 @@
-"""`uictest identify`."""
+"""`uictest identify`, and what leads to it: `uictest bench` and `uictest fit`."""
 
 import hashlib
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from uictest.core.recording import ORIGIN, Recording, parquet_bytes, read_parquet
-from uictest.plans.scenario import load_part
+from uictest.plans.scenario import load, load_part
+from uictest.rig import simulate
 from uictest.rig.identification.compensation_file import load_compensation
 
 from ..conftest import CALIPER_LINES, caliper
@@ -102,7 +104,7 @@ def test_a_result_is_never_silently_called_like_a_library_part_nor_written_over_
     assert read_parquet(Path("Six Inch.parquet"))["time"].size == 22_001
 
 
-def test_channels_may_have_other_names_and_come_from_csv(call):
+def test_a_record_with_other_names_or_another_tank_needs_it_to_be_said(call):
     time = np.arange(0.0, 12.0, 0.005)
     pressure = 2.0 - 2.0 * np.cos(time)
     rows = "\n".join(
@@ -111,6 +113,10 @@ def test_channels_may_have_other_names_and_come_from_csv(call):
     Path("m.csv").write_text(f"time [s],BC [bar],F [kN]\n{rows}\n", "utf-8")
     names = ("--pressure", "BC", "--force", "F", "--wsp", "100..101")
     assert "4.5" in call("identify", "hysteresis", "m.csv", *names, code=0).out
+    tank = ("--set", "brake.system.tank.volume=4 L")
+    call("bench", "wsp-cycling", *tank, "-o", "four.parquet", code=0)
+    says = "brake.system.tank.volume 4 L, not 2 L; write --set 'brake.system.tank.volume=4 L'"
+    call("identify", "air", "four.parquet", code=4, says=says)
 
 
 SAME = caliper()["cylinder_pressure_1"]
@@ -146,9 +152,100 @@ def test_a_record_that_supports_nothing_is_refused_with_the_reason(call, channel
     assert not FOUND.exists()
 
 
-def test_a_record_of_another_tank_than_assumed_is_refused_with_what_to_write(call):
-    """Its heat conductances would be wrong by a factor, with small errors."""
-    tank = ("--set", "brake.system.tank.volume=4 L")
-    call("bench", "wsp-cycling", *tank, "-o", "four.parquet", code=0)
-    says = "brake.system.tank.volume 4 L, not 2 L; write --set 'brake.system.tank.volume=4 L'"
-    call("identify", "air", "four.parquet", code=4, says=says)
+RECIPE = """\
+schema: uictest/bench/1
+name: short
+inputs:
+  - {kind: triangular, peaks: [2 bar], floor: 0 bar, ramp: 0.5 s}
+"""
+
+
+@pytest.fixture
+def recipe(workplace):
+    path = workplace / "short.yaml"
+    path.write_text(RECIPE, "utf-8")
+    return path
+
+
+def test_a_recipe_leaves_a_summary_and_the_same_recording_each_time_or_a_csv(call, recipe, workplace):
+    answer = call("bench", "short.yaml", code=0)
+    assert "largest error against module 1" in answer.out
+    recording = read_parquet(workplace / "short.parquet")
+    assert recording["clamping_force_1"].max() > 1000.0
+    assert "sha256 of short.yaml" in recording.metadata
+    assert recording.metadata[ORIGIN] == "simulated caliper"
+    for name in ("a", "b"):
+        assert call("bench", "short.yaml", "-o", f"{name}.parquet").code == 0
+    assert (workplace / "a.parquet").read_bytes() == (workplace / "b.parquet").read_bytes()
+    assert call("bench", "short.yaml", "-o", "short.csv").code == 0
+    assert "tank_pressure_1 [Pa]" in (workplace / "short.csv").read_text("utf-8")
+
+
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
+    time = np.arange(0.0, 2.001, 0.01)
+    demand = np.minimum(time, 1.0) * 2.0
+    if suffix == "csv":
+        rows = "\n".join(f"{t:.2f},{p:.3f}" for t, p in zip(time, demand, strict=True))
+        (workplace / "demand.csv").write_text(f"time [s],demand [bar]\n{rows}\n", "utf-8")
+    else:
+        channels = {"time": time, "demand": demand}
+        (workplace / "demand.parquet").write_bytes(
+            parquet_bytes(Recording(channels, {"time": "s", "demand": "bar"}))
+        )
+    call("bench", "--trace", f"demand.{suffix}", "--pressure", "demand", "-o", "out.parquet", code=0)
+    recording = read_parquet(workplace / "out.parquet")
+    assert recording["demanded_pressure"][-1] == pytest.approx(2e5)
+    assert recording["brake_line_pressure"][-1] == pytest.approx(2e5, rel=0.02)
+
+
+def test_the_recipes_of_the_library_are_listed_with_its_parts(call):
+    listed = set(call("library", "list", code=0).out.split())
+    assert {f"benches/{name}" for name in ("stepwise", "triangular", "random", "wsp-cycling")} <= listed
+
+
+WET = "rail: {condition: wet, friction: 0.07}\ncriteria: [uictest-stop]\n"
+
+
+def simulated(scenario, recording):
+    """Simulate a scenario and write its recording."""
+    [case] = load([scenario])
+    Path(recording).write_bytes(parquet_bytes(simulate(case, record_every=0.01).recording))
+
+
+@pytest.fixture
+def recorded(scenario):
+    simulated(scenario("real", WET), "stop.parquet")
+    return scenario("guess", WET.replace("0.07", "0.12"))
+
+
+def test_a_fit_leaves_a_scenario_that_runs_and_keeps_steps_and_pads_and_settings(call, recorded):
+    answer = call("fit", "stop.parquet", "--scenario", recorded, code=0)
+    assert answer.out.startswith("friction everywhere: 0.07")
+    [folder] = Path("reports").iterdir()
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "SHA256SUMS",
+        "fit.json",
+        "guess-fitted.yaml",
+        "overlay.csv",
+        "overlay.svg",
+    ]
+    [fitted] = load([folder / "guess-fitted.yaml"])
+    assert fitted.scenario.rail.friction == pytest.approx(0.07, rel=0.03)
+    document = json.loads((folder / "fit.json").read_text())
+    assert document["determined"] is True
+    assert document["agreement"]["simulated_distance"] == pytest.approx(
+        document["agreement"]["recorded_distance"], rel=0.1
+    )
+    arguments = ("--break", "10 m", "--pads", "--set", "brake.command=95 %")
+    assert call("fit", "stop.parquet", "--scenario", recorded, *arguments, "-o", "again").code == 0
+    [fitted] = load(list(Path("again").glob("*/guess-fitted.yaml")))
+    assert [float(point.position) for point in fitted.scenario.rail.friction.points] == [0.0, 10.0]
+    assert float(fitted.scenario.brake.command) == pytest.approx(0.95)
+
+
+def test_a_record_that_cannot_tell_exits_1(call, scenario):
+    path = scenario("dry", "rail: {condition: dry}\n")
+    simulated(path, "stop.parquet")
+    answer = call("fit", "stop.parquet", "--scenario", path, code=1)
+    assert "at least" in answer.out

@@ -1,15 +1,12 @@
 from pathlib import Path
 
 
-def test_every_part_is_listed_with_its_title(call):
+def test_every_part_is_listed_with_its_title_and_shows_marks_and_sources(call):
     lines = call("library", "list").out.splitlines()
     listed = {line.split()[0] for line in lines}
     assert {"vehicles/intercity-180", "criteria/uic-541-05-appendix-b"} <= listed
     assert {"channel_maps/common-names", "benches/triangular"} <= listed
     assert all(len(line.split(maxsplit=1)) == 2 for line in lines)
-
-
-def test_every_listed_part_shows_the_mark_of_every_number_and_each_source_once(call):
     for line in call("library", "list").out.splitlines():
         answer = call("library", "show", line.split()[0], code=0)
         if line.startswith(("channel_maps/", "pads/constant")):

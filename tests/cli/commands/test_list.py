@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 
-def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(call, scenario, made_up):
+def test_ids_that_can_be_run_with_titles_and_tags_on_demand_or_as_json(call, scenario, made_up):
     scenario("a", "title: A dry stop\ntags: [dry, quick]\n")
     scenario("b", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = call("list")
@@ -13,9 +13,7 @@ def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(call, sce
     assert call("list", "-v", "-k", "a and not b").out == "a\tA dry stop\tdry quick\n"
     call("run", "-k", "b[command=90]")
     assert made_up == call("list", "-k", "90").out.split() == ["b[command=90]"]
-
-
-def test_json(call, scenario):
+    Path("scenarios/b.yaml").unlink()
     scenario("a", "expect: fail\nmatrix:\n  brake.command: [80 %]\n")
     (case,) = json.loads(call("list", "--format", "json").out)
     assert case.pop("parameters") == {"brake.command": "80 %"}
@@ -41,7 +39,7 @@ criteria:
 """
 
 
-def test_requirements_are_listed_with_what_verifies_them(call, scenario):
+def test_requirements_are_listed_with_what_verifies_them_also_as_json(call, scenario):
     scenario("a", "requirements: [BR-10, BR-2]\nmatrix:\n  brake.command: [80 %, 90 %]\n" + OWN)
     scenario("b", OWN)
     answer = call("list", "--requirements")
@@ -50,6 +48,13 @@ def test_requirements_are_listed_with_what_verifies_them(call, scenario):
         "covered\tBR-10\tscenario a (2 cases)\n"
     )
     assert (answer.code, answer.err) == (0, "uictest: 2 requirements: 2 covered\n")
+    Path("scenarios/b.yaml").unlink()
+    scenario("a", "requirements: [BR-1]\n" + OWN)
+    cases = {"cases": ["a"], "series_ids": []}
+    verified = {"BR-1": {"scenario": "a"}, "BR-2": {"criterion": "short", "profile": "own"}}
+    assert json.loads(call("list", "--requirements", "--format", "json").out) == [
+        {"id": name, "status": "covered", "verified_by": [by | cases]} for name, by in verified.items()
+    ]
 
 
 @pytest.mark.parametrize(("listed", "code"), [("BR-1\nBR-2\n", 1), ("BR-1\n", 0)])
@@ -69,16 +74,11 @@ def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know_and_can_fail(c
     assert call(*command, "--fail-uncovered").code == code
 
 
-def test_requirements_as_json(call, scenario):
-    scenario("a", "requirements: [BR-1]\n" + OWN)
-    cases = {"cases": ["a"], "series_ids": []}
-    verified = {"BR-1": {"scenario": "a"}, "BR-2": {"criterion": "short", "profile": "own"}}
-    assert json.loads(call("list", "--requirements", "--format", "json").out) == [
-        {"id": name, "status": "covered", "verified_by": [by | cases]} for name, by in verified.items()
-    ]
-
-
-def test_requirements_of_selected_cases_and_of_the_scenario_of_a_sweep(call, scenario, workplace):
+def test_requirements_of_selected_cases_of_the_scenario_of_a_sweep_or_of_none(call, scenario, workplace):
+    scenario("a")
+    answer = call("list", "--requirements")
+    assert (answer.code, answer.out) == (0, "")
+    assert answer.err == "uictest: no scenario, series or criterion names a requirement\n"
     scenario("a", "requirements: [BR-1]\ntags: [wet]\n")
     scenario("b", "requirements: [BR-2]\n")
     assert call("list", "--requirements", "-m", "wet").out == "covered\tBR-1\tscenario a (1 case)\n"
@@ -86,13 +86,6 @@ def test_requirements_of_selected_cases_and_of_the_scenario_of_a_sweep(call, sce
     text = "schema: uictest/scenario/1\nname: s\nextends: scenarios/a.yaml\nvary: {matrix: {seed: [1, 2]}}\n"
     (workplace / "s.sweep.yaml").write_text(text)
     assert call("list", "s.sweep.yaml", "--requirements").out == "covered\tBR-1\tscenario s (1 case)\n"
-
-
-def test_no_requirement_at_all(call, scenario):
-    scenario("a")
-    answer = call("list", "--requirements")
-    assert (answer.code, answer.out) == (0, "")
-    assert answer.err == "uictest: no scenario, series or criterion names a requirement\n"
 
 
 @pytest.mark.parametrize("columns", [40, 60, 80, 120])

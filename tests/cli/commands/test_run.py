@@ -8,6 +8,8 @@ import pytest
 from uictest import report
 from uictest.running import campaign
 
+from ..conftest import manifest_of, results_of
+
 WET = "rail: {condition: wet, friction: 0.05}\ncriteria: uictest-stop\n"
 IN_EVERY_RUN = {
     *("SHA256SUMS", "criteria.csv", "index-entry.json", "index.html", "junit.xml", "manifest.json"),
@@ -17,10 +19,6 @@ IN_EVERY_RUN = {
 
 def latest(name):
     return Path("reports/latest", name)
-
-
-def document():
-    return json.loads(latest("results.json").read_text("utf-8"))
 
 
 def files():
@@ -69,13 +67,10 @@ def test_selection(call, scenario, made_up, arguments, ids):
     assert sorted(made_up) == sorted(ids)
 
 
-def test_dry_run_lists_and_does_nothing(call, scenario, made_up):
+def test_dry_run_lists_and_set_sweeps_and_durations_name_the_slowest(call, scenario, made_up):
     scenario("a", "matrix:\n  brake.command: [80 %, 90 %]\n")
     assert call("run", "--dry-run", code=0).out == "a[command=80]\na[command=90]\n"
     assert (made_up, files()) == ([], set())
-
-
-def test_set_sweeps_and_durations_name_the_slowest(call, scenario, made_up):
     scenario("a")
     call("run", "--set", "brake.command=80 %,90 %", code=0)
     header, *rows = latest("summary.csv").read_text().splitlines()
@@ -85,11 +80,17 @@ def test_set_sweeps_and_durations_name_the_slowest(call, scenario, made_up):
     call("run", "--durations", "0", says="the slowest 2 of 2 cases")
 
 
-def test_json_is_the_document_and_nothing_else(call, scenario, made_up):
+def test_json_is_the_document_alone_and_the_manifest_holds_command_seed_and_inputs(call, scenario, made_up):
     scenario("a")
     answer = call("run", "--format", "json")
     assert answer.out == latest("results.json").read_text()
-    assert (document()["schema"], document()["complete"]) == ("uictest/result/2", True)
+    assert (results_of()["schema"], results_of()["complete"]) == ("uictest/result/2", True)
+    call("run", scenario("a").absolute(), "--seed", "7")
+    manifest = manifest_of()
+    assert manifest["command"] == ["uictest", "run", "scenarios/a.yaml", "--seed", "7"]
+    assert manifest["seed"] == 7
+    assert "scenarios/a.yaml" in manifest["inputs"]
+    assert str(Path.cwd()) not in json.dumps(manifest)
 
 
 def test_github_annotates_what_is_not_met_and_quiet_shows_nothing_else(call, scenario, made_up):
@@ -109,7 +110,7 @@ def test_the_first_missed_case_ends_the_run(call, scenario, made_up, option):
         scenario(name, "tags: [fail]\n")
     answer = call("run", *option, code=1, says="2 not run")
     assert answer.out.count("outcome=fail expect=pass") == 1
-    assert document()["complete"] is False
+    assert results_of()["complete"] is False
 
 
 def test_colour_is_off_unless_wanted(call, scenario, made_up, monkeypatch):
@@ -119,15 +120,6 @@ def test_colour_is_off_unless_wanted(call, scenario, made_up, monkeypatch):
     assert "\x1b[32mpass\x1b[0m a" in call("run").out
     monkeypatch.setenv("NO_COLOR", "1")
     assert "\x1b" not in call("run").out
-
-
-def test_the_manifest_holds_command_seed_and_inputs(call, scenario, made_up):
-    call("run", scenario("a").absolute(), "--seed", "7")
-    manifest = json.loads(latest("manifest.json").read_text())
-    assert manifest["command"] == ["uictest", "run", "scenarios/a.yaml", "--seed", "7"]
-    assert manifest["seed"] == 7
-    assert "scenarios/a.yaml" in manifest["inputs"]
-    assert str(Path.cwd()) not in json.dumps(manifest)
 
 
 def test_the_summary_of_a_job_is_appended(call, scenario, made_up, monkeypatch):
@@ -173,28 +165,24 @@ def test_an_interrupt_before_anything_is_published_exits_2_and_writes_nothing(
 HEAVY = "vehicle.body.mass: warning: axle load 40.7 t, plausible 4 to 25 t"
 
 
-def test_an_implausible_train_is_warned_of_and_stands_in_every_report(call, scenario, made_up):
+def test_an_implausible_train_is_warned_of_in_every_report_and_a_usual_one_has_its_figures(
+    call, scenario, made_up
+):
     path = scenario("a", "vehicle: {extends: intercity-180, body: {mass: 150 t}}\n")
     call("run", path, "--strict", code=4, says=HEAVY.replace("warning: ", ""))
     answer = call("run", path, "-v", says=HEAVY)
     assert "part car: car mass 162.6 t, axle load 40.66 t, braked weight percentage" in answer.out
-    (case,) = document()["cases"]
+    (case,) = results_of()["cases"]
     assert case["car"]["mass_t"] == pytest.approx(150.0 + 2 * 2.615 + 4 * 1.85)
     (found,) = case["car"]["implausible"]
     likely = "the mass of several cars?"
     assert (found["name"], found["span"], found["likely"]) == ("axle-load", [4.0, 25.0], likely)
     for name in ("index.html", "junit.xml"):
         assert "implausible: axle load 40.7 t, plausible 4 to 25 t" in latest(name).read_text()
-
-
-def test_a_shipped_scenario_that_options_make_implausible_is_warned_of_and_run(call, made_up):
     call("run", "dry-120", "--set", "vehicle.body.mass=150 t", code=0, says=f"dry-120:1:1: {HEAVY}")
-    assert [found["name"] for found in document()["cases"][0]["car"]["implausible"]] == ["axle-load"]
-
-
-def test_a_usual_train_has_its_figures_and_no_warning(call, scenario, made_up):
+    assert [found["name"] for found in results_of()["cases"][0]["car"]["implausible"]] == ["axle-load"]
     assert "warning" not in call("run", scenario("a")).err
-    assert document()["cases"][0]["car"] == {
+    assert results_of()["cases"][0]["car"] == {
         "mass_t": pytest.approx(45.0),
         "axle_load_t": pytest.approx(11.25),
         "braked_weight_percentage": pytest.approx(149.6, abs=0.1),
@@ -220,7 +208,7 @@ def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_
     results = []
     for options in (["-n1"], ["-n2"], ["-n", "auto"], ["--record", "all", "--record-rate", "200"]):
         call("run", *options)
-        results.append(document()["cases"])
+        results.append(results_of()["cases"])
     assert results == [results[0]] * 4
 
 
@@ -231,27 +219,24 @@ def test_the_option_repeats_every_stop_and_reports_are_written_again_from_the_re
         "pass stop outcome=pass expect=pass test_validity=not_judged requirements=met"
         " stops=3 passed=3 share=1 share_low=0.2924"
     )
-    assert [stop["seed"] for stop in document()["cases"][0]["repeats"]["stops"]] == [3, 4, 5]
+    assert [stop["seed"] for stop in results_of()["cases"][0]["repeats"]["stops"]] == [3, 4, 5]
     assert len(latest("tables/repeats.csv").read_text("utf-8").splitlines()) == 4
     call("report", "reports/latest", "--format", "csv,html,md", "-o", "again", code=0)
     for name in ("summary.csv", "criteria.csv", "tables/repeats.csv"):
         assert Path("again", name).read_bytes() == latest(name).read_bytes()
     assert "3 stops, seeds 3..5: all pass" in Path("again/index.html").read_text("utf-8").lower()
     call("run", path, "--repeat", "1")
-    assert "repeats" not in document()["cases"][0]
+    assert "repeats" not in results_of()["cases"][0]
     assert not latest("tables").exists()
 
 
-def test_an_expectation_is_met_by_all_stops_or_not(call, scenario):
+def test_an_expectation_is_met_by_all_stops_and_a_baseline_compares_their_medians_and_number(call, scenario):
     path = scenario("stop", f"{WET}expect: fail\n")
     answer = call("run", path, "--repeat", "2", code=1)
     assert answer.out.startswith("unexpected-pass stop outcome=pass expect=fail ")
     assert " stops=2 passed=2 " in answer.out
     assert "fail 0 % (0 .. 84.2 % with 95 % confidence); rule: all" in answer.out
     call("run", path, "--repeat", "2", "--lf", code=1)
-
-
-def test_a_baseline_compares_medians_shares_and_the_number_of_stops(call, scenario):
     path = scenario("stop", WET)
     call("run", path, "--repeat", "2", "--baseline", "accepted", "--accept")
     call("run", path, "--repeat", "2", "--baseline", "accepted", code=0)

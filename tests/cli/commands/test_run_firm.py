@@ -1,7 +1,6 @@
 """`uictest run --firm`: what every report says of it, on a short stop with few draws."""
 
 import csv
-import json
 from pathlib import Path
 
 import pytest
@@ -9,6 +8,8 @@ import pytest
 from uictest.analysis.firmness import Effort
 from uictest.cli import run_display
 from uictest.runs import firmness
+
+from ..conftest import manifest_of, results_of
 
 STOP = "rail: {condition: wet, friction: 0.1}\ncriteria: uictest-stop\n"
 TURNED = """\
@@ -31,7 +32,7 @@ def _few(monkeypatch):
 
 def run(call, path, *arguments, code=0, report="csv,md"):
     answer = call("run", path, "--report", report, *arguments, code=code)
-    document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    document = results_of()
     return answer, document["cases"]
 
 
@@ -83,34 +84,31 @@ def test_a_number_that_turns_a_verdict_is_named_with_its_value_and_misses_strict
     assert "reason=pass, unsettled. Expected: pass" in answer.out or "not firm" in answer.out
 
 
-def test_an_outcome_that_the_varied_stops_do_not_come_to_is_not_said_to_be_firm(call, scenario):
+def test_an_outcome_that_is_not_shown_is_not_said_to_be_firm_and_seeds_go_on_from_0(call, scenario):
     # A rig with one caliper stops within 33.463 m, one with four within 33.491 m.
     path = scenario("stop", TURNED.replace("36 m", "33.47 m"))
     answer, [case] = run(call, path, "--firm", "--strict", code=1)
     assert (case["outcome"], case["firmness"]["nominal"]) == ("pass", "fail")
     assert "firmness stop pass is not shown to be firm: the stops that were varied come to fail" in answer.out
-
-
-def test_the_seeds_go_on_from_0_behind_the_largest(call, scenario):
     _, [case] = run(call, scenario("stop", STOP), "--firm", "--seed", 2**32 - 1)
     assert case["firmness"]["status"] == "not_shown"  # the stops under further seeds can be run
 
 
-def test_nothing_is_said_where_it_was_not_asked(call, scenario):
+def test_nothing_is_said_where_it_was_not_asked_and_an_interrupt_leaves_an_incomplete_run(
+    call, scenario, monkeypatch
+):
     answer, [case] = run(call, scenario("stop", STOP))
     assert "firmness" not in case
     assert "firm" not in answer.out
     assert not Path("reports/latest/tables").exists()
 
-
-def test_an_interrupt_of_the_question_leaves_an_incomplete_run(call, scenario, monkeypatch):
     def interrupt(own, case):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(firmness.FirmnessRun, "of_case", interrupt)
     _, [case] = run(call, scenario("stop", STOP), "--firm", code=2)
     assert "firmness" not in case
-    assert json.loads(Path("reports/latest/results.json").read_text("utf-8"))["complete"] is False
+    assert results_of()["complete"] is False
     assert "Incomplete" in Path("reports/latest/summary.md").read_text("utf-8")
 
 
@@ -136,7 +134,10 @@ def test_a_terminal_tells_once_what_a_strict_case_lacks(call, scenario, monkeypa
     assert answer.out.count("run with a caliper in every module") == 1
 
 
-def test_calibrating_stops_choose_among_the_draws(call, scenario):
+def test_calibrating_stops_choose_among_the_draws_and_one_that_is_missed_is_refused(call, scenario):
+    stop, missed = scenario("stop", TURNED), scenario("missed", TURNED.replace("36 m", "5 m"))
+    says = "missed is not pass at the nominal values"
+    call("run", stop, "--firm", "--calibrated-by", missed, code=4, says=says)
     stop = scenario("stop", TURNED)
     # The pads that stop within 34 m are those of the upper half of the range; all stop within 50 m.
     of_half, of_all = (
@@ -147,23 +148,17 @@ def test_calibrating_stops_choose_among_the_draws(call, scenario):
     assert 0 < case["firmness"]["calibrated"]["counted"] < 8
     assert case["firmness"]["calibrated"]["share"] == 1.0
     assert "of them in which half comes to what it expects" in answer.out
-    manifest = json.loads(Path("reports/latest/manifest.json").read_text("utf-8"))
+    manifest = manifest_of()
     assert any(name.endswith("half.yaml") for name in manifest["inputs"])
     _, [case] = run(call, stop, "--firm", "--calibrated-by", of_all)
     assert case["firmness"]["calibrated"] == {"counted": 8, "share": case["firmness"]["share"]}
-
-
-def test_what_cannot_calibrate_is_refused_before_anything_is_varied(call, scenario):
-    stop, missed = scenario("stop", TURNED), scenario("missed", TURNED.replace("36 m", "5 m"))
-    says = "missed is not pass at the nominal values"
-    call("run", stop, "--firm", "--calibrated-by", missed, code=4, says=says)
 
 
 def test_a_sweep_says_how_firm_its_nominal_case_is_in_every_report(call, scenario):
     path = scenario("stop", f"{TURNED}vary:\n  matrix: {{brake.command: [90 %, 100 %]}}\n")
     answer = call("sweep", path, "--firm", "--report", "csv,html,md")
     folder = Path("reports/stop")
-    [nominal] = json.loads((folder / "results.json").read_text("utf-8"))["nominal"]
+    [nominal] = results_of(folder)["nominal"]
     assert "brake.system.disc.pad_friction" in {each["key"] for each in nominal["firmness"]["turned_by"]}
     sentence = "pass is not firm: it stands in"
     for text in (answer.out, *((folder / name).read_text("utf-8") for name in ("summary.md", "index.html"))):
@@ -171,4 +166,4 @@ def test_a_sweep_says_how_firm_its_nominal_case_is_in_every_report(call, scenari
     assert {row["id"] for row in rows(folder)} == {"stop"}
     call("sweep", path)
     assert not (folder / "tables/firmness.csv").exists()
-    assert json.loads((folder / "results.json").read_text("utf-8"))["nominal"] == []
+    assert results_of(folder)["nominal"] == []

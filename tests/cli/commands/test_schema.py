@@ -91,13 +91,10 @@ def test_shipped_files_name_the_schema_of_their_kind_in_the_folder_beside(folder
         assert named.resolve() == REPOSITORY / f"schema/{kind}.schema.json", path
 
 
-def test_the_schema_is_draft_07(call):
+def test_schemas_are_of_draft_07_and_all_are_written_and_named_and_may_be_written_again(call):
     schema = json.loads(call("schema").out)
     assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
     jsonschema.Draft7Validator.check_schema(schema)
-
-
-def test_all_of_them_are_written_and_named_and_may_be_written_again(call):
     Path("schema").mkdir()
     other = Path("schema/other.schema.json")
     other.write_text("{}")

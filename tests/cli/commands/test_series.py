@@ -10,6 +10,8 @@ from uictest.core import recording
 from uictest.core.recording.formats import writer_of
 from uictest.judging import series
 
+from ..conftest import results_of
+
 DRY = "tags: [reference]\nrail: {condition: dry}\ncriteria: uictest-stop\n"
 WET = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
 PROFILE = """schema: uictest/criteria/1
@@ -42,16 +44,17 @@ def campaign(scenario):
     return write
 
 
-def test_requirements_of_series_are_listed(call, campaign):
+def test_a_series_and_its_requirements_are_listed_and_a_dry_run_names_its_stops(call, campaign):
     path = campaign(text="requirements: [BR-1, BR-2]\n")
     answer = call("list", path, "--requirements")
     assert answer.out == "covered\tBR-1\tseries small (1 series)\ncovered\tBR-2\tseries small (1 series)\n"
     (first, _) = json.loads(call("list", path, "--requirements", "--format", "json").out)
     assert first["verified_by"] == [{"series": "small", "cases": [], "series_ids": ["small"]}]
-
-
-def results():
-    return json.loads(Path("reports/latest/results.json").read_text())
+    path = campaign()
+    for arguments in (("run", path, "--dry-run"), ("list", path)):
+        assert call(*arguments).out.splitlines() == ["small", "  dry small.dry", "  wet small.wet x 2"]
+    (listed,) = json.loads(call("list", path, "--format", "json").out)
+    assert [(stop["role"], stop["repeat"]) for stop in listed["stops"]] == [("dry", 1), ("wet", 2)]
 
 
 def test_a_series_is_run_judged_and_reported_and_reported_again(call, campaign):
@@ -65,7 +68,7 @@ def test_a_series_is_run_judged_and_reported_and_reported_again(call, campaign):
     (testcase,) = ElementTree.parse("reports/latest/junit.xml").iter("testcase")
     assert testcase.get("name") == "small: stopping-distance"
     # Its stops are no cases of the run: a wet stop that fails is a figure, not a failure.
-    assert results()["cases"] == []
+    assert results_of()["cases"] == []
     assert call("report", "reports/latest", "--format", "junit,md,csv", "-o", "again").code == 0
     for name in tables:
         assert Path("again/tables", name).read_text() == Path("reports/latest/tables", name).read_text()
@@ -77,7 +80,7 @@ def test_a_series_stands_beside_the_scenarios_of_a_folder_and_a_miss_is_one(call
     answer = call("run", "scenarios", code=0, says=told)
     passed = [line.split()[1] for line in answer.out.splitlines() if line.startswith("pass")]
     assert passed == ["dry", "wet", "small"]
-    assert [case["id"] for case in results()["cases"]] == ["dry", "wet"]
+    assert [case["id"] for case in results_of()["cases"]] == ["dry", "wet"]
     answer = call("run", campaign("101 % of the dry stop"), "--format", "github", code=1)
     assert "fail small" in answer.out
     assert "::error file=scenarios/small.series.yaml,title=fail small::fail: " in answer.out
@@ -85,19 +88,17 @@ def test_a_series_stands_beside_the_scenarios_of_a_folder_and_a_miss_is_one(call
     assert call("run", campaign("101 % of the dry stop", "expect: fail\n")).code == 0
 
 
-def test_the_document_is_all_that_json_prints(call, campaign):
+def test_set_seed_and_repeat_reach_all_stops_and_json_prints_the_document(call, campaign):
     document = json.loads(call("run", campaign(), "--format", "json").out)
     (read,) = series.series_results_of(document["series"])
     assert (read.id, read.outcome) == ("small", "pass")
     assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [None, 0, 1]
-
-
-def test_a_dry_run_and_a_list_name_the_stops(call, campaign):
     path = campaign()
-    for arguments in (("run", path, "--dry-run"), ("list", path)):
-        assert call(*arguments).out.splitlines() == ["small", "  dry small.dry", "  wet small.wet x 2"]
-    (listed,) = json.loads(call("list", path, "--format", "json").out)
-    assert [(stop["role"], stop["repeat"]) for stop in listed["stops"]] == [("dry", 1), ("wet", 2)]
+    assert call("run", path, "--set", "rig.wsp=bypassed", "--seed", "40", "--repeat", "3").code in (0, 1)
+    (read,) = series.series_results_of(results_of()["series"])
+    assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [40, 41, 42, 40, 41, 42]
+    parts = [part for stop in read.cases for part in stop.case.parts.values()]
+    assert {p.value for part in parts for p in part.parameters if p.key == "rig.wsp"} == {"bypassed"}
 
 
 @pytest.mark.parametrize(
@@ -115,21 +116,12 @@ def test_series_are_selected_like_cases(call, campaign, option, word, name):
     assert [line for line in listed if not line.startswith(" ")] == [name]
 
 
-def test_set_seed_and_repeat_reach_all_stops(call, campaign):
-    path = campaign()
-    assert call("run", path, "--set", "rig.wsp=bypassed", "--seed", "40", "--repeat", "3").code in (0, 1)
-    (read,) = series.series_results_of(results()["series"])
-    assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [40, 41, 42, 40, 41, 42]
-    parts = [part for stop in read.cases for part in stop.case.parts.values()]
-    assert {p.value for part in parts for p in part.parameters if p.key == "rig.wsp"} == {"bypassed"}
-
-
 def test_the_first_series_that_is_missed_ends_the_run(call, campaign):
     path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
     assert "fail small[controller=slip-band]" not in call("run", path, "-x").out
-    (read,) = series.series_results_of(results()["series"])
+    (read,) = series.series_results_of(results_of()["series"])
     assert read.id == "small[controller=threshold]"
-    assert results()["complete"] is False
+    assert results_of()["complete"] is False
 
 
 @pytest.mark.parametrize(("maxfail", "series_run"), [(1, 0), (2, 1), (3, 2)])
@@ -139,7 +131,7 @@ def test_cases_that_are_missed_count_towards_the_series_that_may_be(
     path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
     alone = scenario("alone", "criteria: uictest-stop\nexpect: fail\n")
     assert call("run", alone, path, "--maxfail", str(maxfail)).code == 1
-    written = results()
+    written = results_of()
     assert [case["id"] for case in written["cases"]] == ["alone"]
     assert len(series.series_results_of(written["series"]) if series_run else ()) == series_run
     assert ("series" in written) == (series_run > 0)
@@ -155,7 +147,7 @@ def test_a_series_is_compared_with_its_baseline(call, campaign):
     title = "::error file=scenarios/small.series.yaml,title=differs small::baseline: "
     assert any(line.startswith(title) for line in changed.out.splitlines())
     call("run", Path("scenarios/dry.yaml"), "--baseline", "kept", "--accept")
-    both = json.loads(Path("kept/results.json").read_text())
+    both = results_of("kept")
     assert [each["id"] for each in both["series"]["series"]] == ["small"]
     assert call("run", path, "--baseline", "kept").code == 0
 
@@ -163,7 +155,7 @@ def test_a_series_is_compared_with_its_baseline(call, campaign):
 def test_recorded_stops_give_the_figures_of_the_simulated_ones(call, campaign):
     path = campaign()
     call("run", path, "--repeat", "1", "--record", "all", "--record-rate", "250")
-    (simulated,) = series.series_results_of(results()["series"])
+    (simulated,) = series.series_results_of(results_of()["series"])
     folder = Path("reports/latest/recordings")
     for name in ("dry", "wet"):
         written = recording.read_parquet(folder / f"small.{name}.parquet")
@@ -174,7 +166,7 @@ def test_recorded_stops_give_the_figures_of_the_simulated_ones(call, campaign):
         )
     )
     call("evaluate", path, code=0)
-    (recorded,) = series.series_results_of(results()["series"])
+    (recorded,) = series.series_results_of(results_of()["series"])
     assert [each.case.id for each in recorded.cases] == ["small.dry.dry", "small.wet.wet"]
     for name in ("stopping_distance_extension", "k_wet", "worst_slid_distance", "median_air_consumed"):
         one, other = (each.measures[name].estimate for each in (simulated, recorded))

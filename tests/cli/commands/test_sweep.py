@@ -96,16 +96,6 @@ def test_results_are_the_same_for_any_number_of_threads(call, study, whole):
     assert len(chunk_files()) == 6
 
 
-def test_a_finished_sweep_is_not_done_again_nor_for_other_inputs_without_restart(call, study, whole, counted):
-    call("sweep", study, code=0, says="96 of 96 cases are already finished")
-    assert contents() == whole
-    append_to_scenario("seed: 5\n")
-    call("sweep", study, code=4, says="inputs: scenarios/stop.yaml")
-    assert counted == []
-    call("sweep", study, "--restart", code=0)
-    assert sum(counted) == 96
-
-
 def test_merged_shards_are_the_whole_wherever_they_were_run(call, study, whole, counted, monkeypatch):
     Path("below").mkdir()
     with monkeypatch.context() as patch:
@@ -123,14 +113,11 @@ def test_merged_shards_are_the_whole_wherever_they_were_run(call, study, whole, 
     call("sweep", study, "--set", "seed=1", "-o", "other", "--merge", "shard1/study", code=4)
 
 
-def test_a_shard_without_a_chunk_is_reported_and_can_be_merged(call, study, counted):
+def test_shards_without_a_chunk_or_with_a_damaged_one_are_reported_and_can_be_merged(call, study, counted):
     answer = call("sweep", study, "--shard", "77/100", "-o", "shard77", code=0)
     assert answer.err == "uictest: shard 77 of 100 has no cases: the sweep has only 6 chunks\n"
     assert counted == []
-    call("sweep", study, "--merge", "shard77/study", says="0 chunks from shard77/study")
-
-
-def test_cases_missing_from_the_shards_are_reported_before_they_are_run(call, study, counted):
+    call("sweep", study, "-o", "whole", "--merge", "shard77/study", says="0 chunks from shard77/study")
     for number in (1, 2):
         call("sweep", study, "--shard", f"{number}/3", "-o", f"shard{number}")
     damaged = chunk_files("shard2")[0]
@@ -143,12 +130,22 @@ def test_cases_missing_from_the_shards_are_reported_before_they_are_run(call, st
     assert "missing from the shards" not in call("sweep", study, *shards).err
 
 
-def test_a_damaged_chunk_is_found_and_run_again(call, study, whole, counted):
+def test_a_damaged_chunk_is_run_again_and_a_finished_sweep_only_for_other_inputs_with_restart(
+    call, study, whole, counted
+):
     damaged = chunk_files()[2]
     damaged.write_bytes(damaged.read_bytes()[:-100])
     call("sweep", study, code=0, says="is damaged: recomputing this chunk")
     assert counted == [16]
+    counted.clear()
     assert contents() == whole
+    call("sweep", study, code=0, says="96 of 96 cases are already finished")
+    assert contents() == whole
+    append_to_scenario("seed: 5\n")
+    call("sweep", study, code=4, says="inputs: scenarios/stop.yaml")
+    assert counted == []
+    call("sweep", study, "--restart", code=0)
+    assert sum(counted) == 96
 
 
 @pytest.mark.parametrize("options", [(), ("--restart",), ("--shard", "1/2"), ("--shard", "1/2", "--restart")])
@@ -271,17 +268,14 @@ def test_quiet_shows_what_is_missed_and_nothing_else(call, study, whole):
     assert last == "and 86 more, see summary.csv"
 
 
-def test_no_chunks_are_reported_where_there_are_none(call, study):
-    Path("reports").write_text("")
-    answer = call("sweep", study, code=3)
-    assert answer.err == "uictest: cannot write reports/study: Not a directory\n"
-
-
-def test_list_and_dry_run_show_ids_and_run_nothing(call, study):
+def test_what_a_sweep_shows_in_lists_documents_and_quietly(call, study):
     ids = [f"study[friction=0.09,sample={k}]" for k in range(32)]
     for command in (["sweep", study, "--dry-run"], ["list", study]):
         assert call(*command, "-k", "friction=0.09").out.splitlines() == ids
     assert not Path("reports").exists()
+    answer = call("sweep", study, "-k", "friction=0.09", "--format", "json")
+    assert json.loads(answer.out)["cases"] == 32
+    assert answer.out == (FOLDER / "results.json").read_text()
 
 
 @pytest.mark.parametrize("command", [["sweep", "--dry-run"], ["list", FILE]])
@@ -295,15 +289,12 @@ def test_a_list_ends_when_its_reader_leaves(program, study, command):
     process.stderr.close()
 
 
-def test_stdout_is_the_document_alone(call, study):
-    answer = call("sweep", study, "-k", "friction=0.09", "--format", "json")
-    assert json.loads(answer.out)["cases"] == 32
-    assert answer.out == (FOLDER / "results.json").read_text()
-
-
-def test_check_finds_what_is_wrong_with_a_sweep(call, study):
+def test_check_finds_what_is_wrong_with_a_sweep_and_a_file_in_place_of_reports_is_no_folder(call, study):
     good = Path("scenarios", FILE)
     good.write_text(TEXT.replace("scenarios/", ""))
     call("check", code=0, says="1 scenario with 1 case and 1 sweep, no error")
     good.write_text(TEXT.replace("scenarios/", "").replace("0.08", "6"))
     call("check", code=4, says=f"scenarios/{FILE}:6:21: rail.friction: 6 is out of range")
+    Path("reports").write_text("")
+    answer = call("sweep", study, code=3)
+    assert answer.err == "uictest: cannot write reports/study: Not a directory\n"

@@ -2,13 +2,14 @@
 
 import csv
 import html
-import json
 import re
 import shlex
 from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
+
+from ..conftest import manifest_of, results_of
 
 FOLDER = Path("reports/pads")
 TEXT = """\
@@ -57,10 +58,6 @@ def pads(scenario):
     return write
 
 
-def document():
-    return json.loads((FOLDER / "results.json").read_text())
-
-
 def rows(name="summary.csv"):
     with (FOLDER / name).open() as file:
         return list(csv.DictReader(file))
@@ -77,22 +74,9 @@ def test_reports_are_written_in_the_formats_asked_for_and_in_others_later(call, 
     assert names == {Path(line).relative_to("elsewhere").as_posix() for line in answer.out.splitlines()}
     tables = {"summary.csv", "tables/rates.csv", "tables/map-met.csv"}
     assert {*tables, "report.xlsx", "summary.md"} <= names
-
-
-def test_a_step_summary_that_cannot_be_written_undoes_nothing(call, pads, monkeypatch):
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", "no/folder")
     call("sweep", pads(), "--report", "md", code=1, says="GITHUB_STEP_SUMMARY cannot be written")
     assert (FOLDER / "summary.md").exists()
-
-
-def test_nothing_of_an_earlier_result_stays_beside_another(call, pads):
-    file = pads()
-    call("sweep", file, "--report", "html", "--measure", "braking_time_s")
-    (FOLDER / "notes.csv").write_text("mine")
-    call("sweep", file, "--report", "csv")
-    names = {path.relative_to(FOLDER).as_posix() for path in FOLDER.rglob("*")}
-    assert {"tables/map-braking_distance_m.csv", "notes.csv", "results.json"} <= names
-    assert names.isdisjoint({"tables/map-braking_time_s.csv", "index.html"})
 
 
 @pytest.mark.parametrize("name", ["results.json", "summary.parquet"])
@@ -114,7 +98,7 @@ def test_github_gets_annotations_below_the_findings_and_alone_with_q(call, pads)
     assert call("sweep", pads(), "--format", "github", "-q").out.splitlines() == [*errors, notice]
 
 
-def test_the_page_draws_the_worst_cases_and_can_be_made_again(call, pads):
+def test_the_page_draws_the_worst_cases_and_is_made_again_and_nothing_of_an_earlier_result_stays(call, pads):
     call("sweep", pads())
     page = FOLDER / "index.html"
     first = page.read_bytes()
@@ -123,6 +107,13 @@ def test_the_page_draws_the_worst_cases_and_can_be_made_again(call, pads):
     page.unlink()
     call("report", FOLDER, "--format", "html", code=0)
     assert page.read_bytes() == first
+    file = pads()
+    call("sweep", file, "--report", "html", "--measure", "braking_time_s")
+    (FOLDER / "notes.csv").write_text("mine")
+    call("sweep", file, "--report", "csv")
+    names = {path.relative_to(FOLDER).as_posix() for path in FOLDER.rglob("*")}
+    assert {"tables/map-braking_distance_m.csv", "notes.csv", "results.json"} <= names
+    assert names.isdisjoint({"tables/map-braking_time_s.csv", "index.html"})
 
 
 def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call, pads):
@@ -140,8 +131,8 @@ def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call, pads):
 def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call, pads):
     steps = "matrix: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}"
     call("sweep", pads(steps), code=3)
-    assert document()["outcomes"]["error"] == 1
-    assert any("does not divide" in case["reason"] for case in document()["missed"])
+    assert results_of(FOLDER)["outcomes"]["error"] == 1
+    assert any("does not divide" in case["reason"] for case in results_of(FOLDER)["missed"])
     page = (FOLDER / "index.html").read_text()
     assert 'class="word word-odd"' in page
     assert page.count('<details class="stop"') == 3
@@ -185,7 +176,7 @@ def test_the_frontier_is_written_and_shown(call, pads):
 def test_a_survey_says_what_it_repeated_and_what_its_step_does(call, pads):
     file = pads()
     result = call("sweep", file, "--set", "simulation.time_step=survey", "--report", "html,md")
-    survey = document()["survey"]
+    survey = results_of(FOLDER)["survey"]
     bias = next(each for each in survey["biases"] if each["measure"] == "uncorrected_braking_distance")
     assert (survey["time_step"], survey["regular_step"]) == ("1 ms", "0.5 ms")
     assert survey["repeated"] == 0
@@ -197,7 +188,7 @@ def test_a_survey_says_what_it_repeated_and_what_its_step_does(call, pads):
         assert begin in html.unescape((FOLDER / name).read_text()), name
     table = pq.read_table(FOLDER / "summary.parquet").to_pylist()
     distance = {row["id"]: row["braking_distance_m"] for row in table}
-    for case in document()["worst"]:
+    for case in results_of(FOLDER)["worst"]:
         assert case["measures"]["braking_distance_m"] == distance[case["id"]]
     # The chunks of a survey are no others.
     call("sweep", file, code=4, says="time step: survey before, none now")
@@ -225,7 +216,7 @@ def test_another_content_of_the_controller_is_another_sweep(call, share):
     file = share(0, 0.3)
     assert call("sweep", file).code in (0, 1)
     first = rows()
-    assert len(json.loads((FOLDER / "manifest.json").read_bytes())["inputs"]["share.py"]) == 64
+    assert len(manifest_of(FOLDER)["inputs"]["share.py"]) == 64
     Path("share.py").write_text(CONTROLLER + "\n")
     answer = call("sweep", file, code=4, says="holds chunks of this sweep with other inputs")
     assert "inputs: share.py" in answer.err
@@ -233,18 +224,15 @@ def test_another_content_of_the_controller_is_another_sweep(call, share):
     assert rows() == first
 
 
-def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call, share):
+def test_an_axis_of_controllers_names_them_and_the_frontier_of_a_parameter_is_found(call, share):
     part = "schema: uictest/controller/1\npython: share.py\nclass: Share\nparameters: {share: 0.5}\n"
     Path("own.yaml").write_text(part)
     file = share("threshold", {"python": "share.py", "class": "Share"}, "own.yaml", key="controller")
     assert call("sweep", file).code in (0, 1)
     names = ("threshold", "share", "own")
     assert [row["id"] for row in rows()] == [f"pads[controller={name}]" for name in names]
-    assert {"share.py", "own.yaml"} <= json.loads((FOLDER / "manifest.json").read_bytes())["inputs"].keys()
-
-
-def test_the_frontier_of_a_parameter_is_found(call, share):
-    options = ("--frontier", "controller.parameters.share", "--tolerance", "0.1")
+    assert {"share.py", "own.yaml"} <= manifest_of(FOLDER)["inputs"].keys()
+    options = ("--frontier", "controller.parameters.share", "--tolerance", "0.1", "--restart")
     answer = call("sweep", share(0.0, 1.0), *options, "--set", "simulation.maximum_duration=15 s", code=1)
     assert "Frontier along controller.parameters.share" in answer.out
     (flip,) = rows("tables/frontier.csv")

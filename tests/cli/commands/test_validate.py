@@ -11,7 +11,7 @@ import pytest
 
 from uictest.running.campaign import stop as stop_module
 
-from ..conftest import FIGURES
+from ..conftest import FIGURES, manifest_of, results_of
 
 SIMULATED = FIGURES["braking_distance_m"]
 """What every simulation comes to here, m."""
@@ -59,10 +59,6 @@ def distance(table="figures.csv"):
     """The row of the braking distance."""
     [row] = [row for row in rows(table) if row["figure"] == "braking_distance_m"]
     return row
-
-
-def run_results():
-    return json.loads(Path("reports/latest/results.json").read_text("utf-8"))
 
 
 def test_a_known_bias_of_the_distance_is_found(validate):
@@ -202,11 +198,11 @@ def test_cases_outside_of_what_was_validated_are_flagged(call, validated):
     flags = [line for line in answer.out.splitlines() if line.startswith("outside")]
     why = "initial_speed 40 km/h > 31 km/h"
     assert flags == [f"outside stop[initial_speed=40kmh] of what my-train validated: {why}"]
-    inside, outside = (case["domain_of_validity"] for case in run_results()["cases"])
+    inside, outside = (case["domain_of_validity"] for case in results_of()["cases"])
     assert (inside["validation"], inside["outside"]) == ("my-train", [])
     assert [each["key"] for each in outside["outside"]] == ["initial_speed"]
     folder = Path("reports/latest")
-    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    manifest = manifest_of(folder)
     assert inside["sha256"] in manifest["inputs"].values()
     for name in ("index.html", "junit.xml"):
         assert f"outside of what my-train validated: {why}" in unescape((folder / name).read_text("utf-8"))
@@ -218,10 +214,19 @@ def test_cases_outside_of_what_was_validated_are_flagged(call, validated):
     assert Path("again/summary.md").read_text("utf-8") == summary
 
 
-def test_without_the_option_nothing_is_said(call, validated):
+def test_without_the_option_nothing_is_said_and_with_it_nothing_is_simulated_again(call, validated, study):
     answer = call("run", "scenarios/stop.yaml", "--set", "initial_speed=90 km/h")
     assert "outside" not in answer.out + answer.err
     assert "domain_of_validity" not in Path("reports/latest/results.json").read_text("utf-8")
+    call("sweep", study)
+    before = results_of("reports/study")
+    assert before["domain_of_validity"] is None
+    assert "outside" not in Path("reports/study/summary.csv").read_text("utf-8").splitlines()[0]
+    answer = call("sweep", study, "--validated", validated)
+    assert "4 of 4 cases are already finished" in answer.err
+    after = results_of("reports/study")
+    assert after["domain_of_validity"]["outside"] == 3
+    assert after["outcomes"] == before["outcomes"]
 
 
 @pytest.mark.parametrize(
@@ -257,13 +262,13 @@ def test_a_scenario_names_the_validation_that_its_cases_are_held_against(call, v
     scenario("other", friction)
     says = "1 of 1 case outside of what another-train validated"
     answer = call("run", "scenarios", "--set", "initial_speed=40 km/h", code=0, says=says)
-    asked = {case["id"]: "domain_of_validity" in case for case in run_results()["cases"]}
+    asked = {case["id"]: "domain_of_validity" in case for case in results_of()["cases"]}
     assert asked == {"fast": True, "other": False, "stop": False}
     assert "outside fast of what another-train validated: initial_speed 40 km/h > 31 km/h" in answer.out
-    manifest = json.loads(Path("reports/latest/manifest.json").read_text("utf-8"))
+    manifest = manifest_of()
     assert "scenarios/train.json" in manifest["inputs"]
     call("run", "scenarios/fast.yaml", "--validated", validated)
-    assert run_results()["cases"][0]["domain_of_validity"]["validation"] == "my-train"
+    assert results_of()["cases"][0]["domain_of_validity"]["validation"] == "my-train"
 
 
 @pytest.mark.parametrize(
@@ -306,7 +311,9 @@ NOTE = (
 )
 
 
-def test_a_sweep_counts_and_names_the_cases_outside(call, validated, study):
+def test_a_sweep_counts_and_names_the_cases_outside_also_of_the_validation_that_a_scenario_names(
+    call, validated, study, scenario
+):
     answer = call("sweep", study, "--validated", validated, "--report", "csv,html")
     assert answer.code in (0, 1)
     assert f"note: {NOTE}" in answer.out
@@ -315,27 +322,12 @@ def test_a_sweep_counts_and_names_the_cases_outside(call, validated, study):
         outside = {row["id"]: set(row["outside"].split()) for row in csv.DictReader(file)}
     speed, command = "initial_speed", "brake.command"
     assert list(outside.values()) == [set(), {command}, {speed}, {speed, command}]
-    found = json.loads((folder / "results.json").read_text("utf-8"))["domain_of_validity"]
+    found = results_of(folder)["domain_of_validity"]
     assert (found["validation"], found["outside"]) == ("my-train", 3)
     counts = [(each["deviation"]["key"], each["cases"]) for each in found["conditions"]]
     assert counts == [(speed, 2), (command, 2)]
     assert NOTE in unescape((folder / "index.html").read_text("utf-8"))
-
-
-def test_another_validation_simulates_nothing_again(call, validated, study):
-    call("sweep", study)
-    before = json.loads(Path("reports/study/results.json").read_text("utf-8"))
-    assert before["domain_of_validity"] is None
-    assert "outside" not in Path("reports/study/summary.csv").read_text("utf-8").splitlines()[0]
-    answer = call("sweep", study, "--validated", validated)
-    assert "4 of 4 cases are already finished" in answer.err
-    after = json.loads(Path("reports/study/results.json").read_text("utf-8"))
-    assert after["domain_of_validity"]["outside"] == 3
-    assert after["outcomes"] == before["outcomes"]
-
-
-def test_a_swept_scenario_names_its_validation(call, validated, study, scenario):
     shutil.copy(validated, "scenarios/train.json")
     scenario("stop", "rail: {condition: wet, friction: 0.1}\nvalidated: train.json\n")
-    answer = call("sweep", study, "--format", "json")
+    answer = call("sweep", study, "--format", "json", "-o", "again")
     assert json.loads(answer.out)["domain_of_validity"]["outside"] == 3

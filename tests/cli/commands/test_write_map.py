@@ -105,7 +105,7 @@ def test_the_map_that_is_written_reads_the_file(call, write_map, name):
     assert "braking_distance_m=246.91 " in answer.out, (answer.err, text)
 
 
-def test_what_is_guessed_and_what_is_open_is_marked(write_map):
+def test_what_is_guessed_what_is_open_and_other_lines_of_names_are_marked(write_map):
     lines, encoding = FILES["no units"]
     text, answer = write_map([line.replace("v1", "Rad 1") for line in lines], encoding)
     assert 'time: {source: "t", unit: ms}  # guessed: the file does not state the unit' in text
@@ -113,6 +113,15 @@ def test_what_is_guessed_and_what_is_open_is_marked(write_map):
     assert "# not assigned: wheel_speed_1; needed for" in text
     assert '# not used: "Rad 1"' in text
     assert "lab.yaml: 6 guessed" in answer.out
+    Path("lab.yaml").unlink()
+    lines = [
+        "Kanal 1;Kanal 2",
+        "Zeit;v_Zug",
+        "s;km/h",
+        *(f"{k / 50:.2f};80,5".replace(".", ",") for k in range(50)),
+    ]
+    text, _ = write_map(lines)
+    assert "header_line: 1  # guessed: or 2, which are as wide" in text
 
 
 @pytest.mark.parametrize(("decimal", "thousands"), [(",", "."), (".", ",")])
@@ -144,17 +153,6 @@ def test_five_elements_of_an_array_are_no_wheelsets_and_a_letter_is_a_state(writ
     text, _ = write_map([names, *rows])
     assert "wheel_speed" not in text.partition("# not assigned")[0]
     assert "missing" not in text
-
-
-def test_other_lines_as_wide_as_the_names_are_named(write_map):
-    lines = [
-        "Kanal 1;Kanal 2",
-        "Zeit;v_Zug",
-        "s;km/h",
-        *(f"{k / 50:.2f};80,5".replace(".", ",") for k in range(50)),
-    ]
-    text, _ = write_map(lines)
-    assert "header_line: 1  # guessed: or 2, which are as wide" in text
 
 
 @pytest.mark.parametrize("samples", [25, 1262])

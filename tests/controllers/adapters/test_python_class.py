@@ -49,15 +49,12 @@ def _forgotten(tmp_path, monkeypatch):
             del sys.modules[name]
 
 
-def test_a_file_takes_the_place_of_no_other_module(tmp_path, config):
+def test_a_file_takes_the_place_of_no_other_module_and_a_missing_class_is_named(tmp_path, config):
     (tmp_path / "other").mkdir()
     for path in (tmp_path / "json.py", tmp_path / "wsp.py", tmp_path / "other" / "wsp.py"):
         open_controller(program(path), config).close()
     assert sys.modules["json"] is json
     assert sys.modules["wsp"].__file__ == str(tmp_path / "wsp.py")
-
-
-def test_a_class_that_is_not_there_is_named_with_those_that_are(tmp_path, config):
     with pytest.raises(ControllerError, match=r"^wsp\.py has no class 'Mine'; its classes: Wsp$"):
         open_controller(program(tmp_path / "wsp.py", "Mine"), config)
 
@@ -157,18 +154,22 @@ def describe(metadata, package, entry_points):
     (metadata / "entry_points.txt").write_text(f"[uictest.controllers]\n{entry_points}", "utf-8")
 
 
-def test_its_part_has_name_and_version_of_the_package_which_is_not_imported():
-    part = load_controller("acme-broken")
-    assert (part.version, "acme_wsp" in sys.modules) == ("acme-wsp 2.1.0", False)
-    assert opened("acme-class").version == load_controller("acme-class").version
-
-
-def test_parameters_of_a_class_are_read_from_its_module_which_is_not_imported():
+def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(tmp_path):
+    case = stop(tmp_path, "acme-class")
+    assert case.scenario.controller.program.kind == "registered"
+    assert case.scenario.controller.program.location == "acme-class"
+    assert case.scenario.controller.version == "acme-wsp 2.1.0"
+    case = stop(tmp_path, "{extends: acme-class, parameters: {gain: 3}}")
+    assert json.loads(case.scenario.controller.program.parameters) == {"gain": 3}
+    with pytest.raises(ScenarioErrors, match="did you mean 'acme-class'"):
+        stop(tmp_path, "acme-clas")
+    assert load_controller("acme-broken").version == "acme-wsp 2.1.0"
     part = load_controller("acme-declares")
     assert part.parameters == {"gain": 2.0}
     with pytest.raises(ScenarioErrors, match="did you mean gain"):
         with_parameters(part, {"gian": 1.0})
-    assert "acme_wsp" not in sys.modules
+    assert not [name for name in sys.modules if name.startswith("acme_wsp")]
+    assert opened("acme-class").version == load_controller("acme-class").version
 
 
 def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs():
@@ -208,21 +209,6 @@ def test_a_class_is_created_with_its_parameters():
     outputs = rig.drive(instance, anything(0.01, 3).inputs, 0.01, rig.empty_exchange()).outputs
     assert outputs["reference_speed"].tolist() == [2.0, 4.0, 6.0]
     assert np.all(outputs["vent"] == 0)
-
-
-def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(tmp_path):
-    case = stop(tmp_path, "acme-class")
-    assert case.scenario.controller.program.kind == "registered"
-    assert case.scenario.controller.program.location == "acme-class"
-    assert case.scenario.controller.version == "acme-wsp 2.1.0"
-    case = stop(tmp_path, "{extends: acme-class, parameters: {gain: 3}}")
-    assert json.loads(case.scenario.controller.program.parameters) == {"gain": 3}
-    assert not [name for name in sys.modules if name.startswith("acme_wsp")]
-
-
-def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path):
-    with pytest.raises(ScenarioErrors, match="did you mean 'acme-class'"):
-        stop(tmp_path, "acme-clas")
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,7 @@ def failure(program, config):
 
 
 def test_the_greeting_says_what_the_program_has_to_know(start, at, config):
+    """The digest of no case is zero."""
     program = start()
     controller = open_controller(at(program.address), config)
     controller.close()
@@ -66,6 +67,9 @@ def test_the_greeting_says_what_the_program_has_to_know(start, at, config):
     assert body[64:96].hex() == config.case_sha256
     assert body[96:] == b'{"lower": 0.08}'
     assert controller.version == "Bremsprüfer 2.1"
+    other = start()
+    open_controller(at(other.address), Config(4, 0.01, 30.0, (0.4,) * 4, {})).close()
+    assert other.received[0][2][64:96] == bytes(32)
 
 
 def test_inputs_and_outputs_travel_as_they_lie_in_memory(start, at, config):
@@ -105,12 +109,6 @@ def test_a_program_that_answers_with_version_2_gets_its_inputs_and_gives_its_out
 def resized(frame):
     """State the size of the body in the header."""
     return frame[:4] + struct.pack("<I", len(frame) - 16) + frame[8:]
-
-
-def test_the_digest_of_no_case_is_zero(start, at):
-    program = start()
-    open_controller(at(program.address), Config(4, 0.01, 30.0, (0.4,) * 4, {})).close()
-    assert program.received[0][2][64:96] == bytes(32)
 
 
 def changed(place, layout, value):
@@ -193,38 +191,30 @@ def test_a_short_frame_is_named_where_the_connection_ends(start, at, config, par
     assert failure(at(program.address), config) == expected
 
 
-BUSY = "; does the program serve another stop?"
-
-
-def test_a_program_that_says_nothing_has_its_time(start, at, config):
+def test_a_program_that_says_nothing_or_sends_byte_by_byte_has_its_time(start, at, config):
+    busy = "; does the program serve another stop?"
     ended = threading.Event()
     program = start(lambda frame: b"late" if ended.wait() else None)
-    assert failure(at(program.address, 0.05), config) == f"no answer to the greeting within 0.05 s{BUSY}"
+    assert failure(at(program.address, 0.05), config) == f"no answer to the greeting within 0.05 s{busy}"
     ended.set()
 
-
-def test_a_program_that_sends_byte_by_byte_has_no_more_time(start, at, config):
     def trickle(frame):
-        for place in range(len(frame)):
-            program.streams[-1].sendall(frame[place : place + 1])
+        for position in range(len(frame)):
+            program.streams[-1].sendall(frame[position : position + 1])
             time.sleep(0.01)
 
     program = start(trickle)
     message = failure(at(program.address, 0.2), config)
     assert message.startswith(("only ", "no answer "))
-    assert message.removesuffix(BUSY).endswith(" to the greeting within 0.2 s")
+    assert message.removesuffix(busy).endswith(" to the greeting within 0.2 s")
 
 
-def free_address():
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        return f"tcp://127.0.0.1:{listener.getsockname()[1]}"
-
-
-def test_where_nobody_listens_only_the_first_stop_waits(at, config, monkeypatch):
+def test_where_nobody_listens_only_the_first_stop_waits_and_the_reason_is_given(at, config, monkeypatch):
     waited = []
     monkeypatch.setattr(turns, "STARTING", 0.2)
     monkeypatch.setattr(turns, "sleep", lambda pause: waited.append(pause) or time.sleep(pause))
-    address = free_address()
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        address = f"tcp://127.0.0.1:{listener.getsockname()[1]}"
     expected = f"no program listens at {address} (Connection refused); start it before the run"
     assert failure(at(address), config) == expected
     assert waited
@@ -232,8 +222,17 @@ def test_where_nobody_listens_only_the_first_stop_waits(at, config, monkeypatch)
     assert failure(at(address), config) == expected
     assert not waited
 
+    def unknown(*arguments, **options):
+        raise socket.gaierror(-2, "Name or service not known")
 
-def test_a_program_may_start_after_the_run(start, at, config, monkeypatch):
+    monkeypatch.setattr(socket, "create_connection", unknown)
+    message = failure(at("tcp://box.invalid:5025"), config)
+    assert message.startswith("no program listens at tcp://box.invalid:5025 (Name or service not known)")
+
+
+def test_a_program_may_start_after_the_run_and_gets_nothing_that_no_frame_holds(
+    start, at, config, monkeypatch
+):
     program = start()
     connect = socket.create_connection
     attempts = []
@@ -247,33 +246,22 @@ def test_a_program_may_start_after_the_run(start, at, config, monkeypatch):
     monkeypatch.setattr(turns, "STARTING", 600.0)
     monkeypatch.setattr(socket, "create_connection", refused_twice)
     assert failure(at(program.address), config) == "nothing"
-
-
-def test_a_name_that_nobody_has_is_named(at, config, monkeypatch):
-    def unknown(*arguments, **options):
-        raise socket.gaierror(-2, "Name or service not known")
-
-    monkeypatch.setattr(turns, "STARTING", 0.0)
-    monkeypatch.setattr(socket, "create_connection", unknown)
-    message = failure(at("tcp://box.invalid:5025"), config)
-    assert message.startswith("no program listens at tcp://box.invalid:5025 (Name or service not known)")
-
-
-def test_parameters_that_no_frame_holds_are_rejected(start, config):
-    program = start()
     long = ControllerProgram("connect", program.address, parameters=f'{{"map": "{"x" * 65536}"}}')
     assert failure(long, config) == "parameters: 65547 bytes as JSON, at most 65440 can be sent"
 
 
-def test_stops_at_one_address_run_one_after_the_other(start, at, config):
-    program = start()
-    messages = []
-    threads = [
-        threading.Thread(target=lambda: messages.append(failure(at(program.address), config)))
-        for _ in range(6)
-    ]
+def in_threads(count, do):
+    """Start so many threads that do it, and return them with what each returned."""
+    results = []
+    threads = [threading.Thread(target=lambda: results.append(do())) for _ in range(count)]
     for thread in threads:
         thread.start()
+    return threads, results
+
+
+def test_stops_at_one_address_run_one_after_the_other(start, at, config):
+    program = start()
+    threads, messages = in_threads(6, lambda: failure(at(program.address), config))
     for thread in threads:
         thread.join()
     assert messages == ["nothing"] * 6
@@ -291,13 +279,7 @@ def test_an_interruption_ends_stops_that_run_and_stops_that_wait(start, at, conf
         ended.wait()
 
     program = start(hang, STEPPED)
-    messages = []
-    threads = [
-        threading.Thread(target=lambda: messages.append(failure(at(program.address, 600.0), config)))
-        for _ in range(2)
-    ]
-    for thread in threads:
-        thread.start()
+    threads, messages = in_threads(2, lambda: failure(at(program.address, 600.0), config))
     asked.wait()
     while len(turns._TURNS) < len(threads):
         time.sleep(0.001)
@@ -345,29 +327,22 @@ def test_cycles_begin_at_multiples_of_the_cycle_time_whatever_answers_take():
 
 
 def test_a_late_answer_misses_a_deadline_in_every_cycle_until_the_schedule_is_met():
+    """It is no jitter of this machine."""
     starts, times = starts_and_times([0.001, 0.035, 0.001, 0.001, 0.001, 0.001], Clock())
     # Cycle 1 is answered at 45 ms: cycles 2 and 3 have ended before they begin, cycle 4 ends in time.
     assert starts == pytest.approx([0.0, 0.01, 0.045, 0.046, 0.047, 0.05])
     assert (times.missed_deadlines, times.longest_answer_cycle) == (3, 1)
     assert times.longest_answer_s == pytest.approx(0.035)
+    assert times.start_jitter_s == pytest.approx(0.0, abs=1e-9)
 
 
-def test_waits_that_take_too_long_do_not_add_up_and_are_the_jitter():
+def test_waits_that_take_too_long_do_not_add_up_are_the_jitter_and_may_miss_a_deadline():
     clock = Clock()
     clock.late = 0.0005
     starts, times = starts_and_times([0.001] * 1000, clock)
     assert starts[-1] == pytest.approx(9.99 + 0.0005)
     assert times.start_jitter_s == pytest.approx(0.0005)
     assert times.missed_deadlines == 0
-
-
-def test_a_late_answer_is_no_jitter_of_this_machine():
-    _, times = starts_and_times([0.001, 0.035, 0.001, 0.001, 0.001, 0.001], Clock())
-    assert times.start_jitter_s == pytest.approx(0.0, abs=1e-9)
-
-
-def test_a_machine_that_begins_a_cycle_too_late_misses_its_deadline():
-    clock = Clock()
     clock.late = 0.012
     _, times = starts_and_times([0.001, 0.001], clock)
     assert times.missed_deadlines == 1

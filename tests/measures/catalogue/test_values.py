@@ -104,13 +104,10 @@ def test_slides_below_the_cutoff_do_not_count_and_none_above_it_is_none():
     assert maximum_slide_above_cutoff(stop(), wheelsets(np.nan, np.nan), 30 * KMH).unavailable_reason
 
 
-def test_440_to_490_m_from_120_km_h_are_1_263_to_1_134_m_per_s2():
+def test_a_distance_of_a_stop_is_a_mean_deceleration_and_grows_while_the_train_runs():
     (short,), (long,) = (mean_deceleration(stop(braking_distance=s)).values for s in (440.0, 490.0))
     assert short == pytest.approx(1.263, abs=5e-4)
     assert long == pytest.approx(1.134, abs=5e-4)
-
-
-def test_up_to_now_a_train_still_running_has_run_a_distance_that_can_only_grow():
     running = stop(stopped=0.0, end_speed=12.0, end_time=180.0, end_distance=2500.0)
     assert braking_distance(running).values == (2500.0,)
     assert braking_time(running).values == (180.0,)

@@ -53,20 +53,10 @@ def test_a_format_is_named_by_its_first_bytes_whatever_its_suffix(tmp_path, mess
         next(read_pieces(path, Dialect()))
 
 
-@pytest.mark.parametrize(
-    "names",
-    [
-        "LOGGER,MATLAB 1",
-        "MATLAB time,v",
-        "date,base",
-        "PK,BZh",
-        "(1.5) can,v",
-        "|CF|,v",
-        "html,v",
-        "7z,Rar!",
-        "%PDF,v",
-    ],
-)
+ODD_NAMES = ["LOGGER,MATLAB 1", "MATLAB time,v", "date,base", "PK,BZh", "(1.5) can,v", "|CF|,v"]
+
+
+@pytest.mark.parametrize("names", [*ODD_NAMES, "html,v", "7z,Rar!", "%PDF,v"])
 def test_a_table_whose_names_are_like_such_beginnings_is_read(tmp_path, names):
     path = tmp_path / "table.csv"
     path.write_text(f"{names}\n1,2\n")
@@ -171,21 +161,18 @@ def test_what_is_refused_is_read_once_the_message_is_obeyed(tmp_path, name):
     np.testing.assert_allclose(_speed(obey(path)), SPEED, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["stop.log", "stop", "stop.mat"])
-def test_a_table_of_another_suffix_is_read_once_it_is_renamed(tmp_path, name):
-    path = tmp_path / name
-    path.write_text(TABLE)
-    told = r"MAT files \(versions 4 to 7\.3\) and texts .*; give a table of text one of these suffixes"
-    with pytest.raises(UnreadableError, match=told):
-        read_contents(path)
-    np.testing.assert_allclose(_speed(path.rename(tmp_path / "stop.txt")), SPEED, atol=1e-9)
-
-
-@pytest.mark.parametrize("suffix", [".lvm", ".tab", ".prn", ".asc"])
-def test_tables_of_measuring_programs_are_text(tmp_path, suffix):
-    path = tmp_path / f"stop{suffix}"
-    path.write_text(TABLE)
-    np.testing.assert_allclose(_speed(path), SPEED, atol=1e-9)
+def test_tables_of_measuring_programs_are_text_and_others_once_they_are_renamed(tmp_path):
+    for suffix in (".lvm", ".tab", ".prn", ".asc"):
+        path = tmp_path / f"stop{suffix}"
+        path.write_text(TABLE)
+        np.testing.assert_allclose(_speed(path), SPEED, atol=1e-9)
+    for name in ("stop.log", "stop", "stop.mat"):
+        path = tmp_path / name
+        path.write_text(TABLE)
+        told = r"MAT files \(versions 4 to 7\.3\) and texts .*; give a table of text one of these suffixes"
+        with pytest.raises(UnreadableError, match=told):
+            read_contents(path)
+        np.testing.assert_allclose(_speed(path.rename(tmp_path / "stop.txt")), SPEED, atol=1e-9)
 
 
 DATABASE = """VERSION ""

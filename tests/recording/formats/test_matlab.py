@@ -170,12 +170,6 @@ def test_signals_without_a_label_have_the_name_of_their_block_or_their_place(rea
     assert [group.time for group in contents.groups] == [None]
 
 
-def test_the_samples_of_a_short_log_are_those_that_its_time_counts(read):
-    log = {"time": np.array([0.0, 0.1]), "signals": {"values": SIGNALS[:2], "label": "v"}}
-    [group] = read({"simout": log}).groups
-    np.testing.assert_array_equal(group.channels["v[3]"], SIGNALS[:2, 2])
-
-
 def test_structures_of_different_rasters_keep_their_own_times(read):
     slow = {"time": COLUMN[::2], "signals": {"values": SIGNALS[::2, 0], "label": "p"}}
     fast = {"time": COLUMN, "signals": {"values": SIGNALS[:, 0], "label": "v"}}
@@ -208,20 +202,15 @@ def test_an_export_of_controldesk_gives_names_units_and_the_time_of_each_raster(
     assert list(group.channels) == [path]
 
 
-def test_the_first_row_of_a_to_file_block_is_the_time_of_the_others(read):
-    matrix = np.vstack([TIME, SIGNALS.T])
-    [group] = read({"ans": matrix}).groups
+def test_the_first_row_of_a_to_file_block_is_the_time_of_the_others_and_no_other_row(read):
+    [group] = read({"ans": np.vstack([TIME, SIGNALS.T])}).groups
     assert list(group.channels) == ["ans[2]", "ans[3]", "ans[4]"]
     np.testing.assert_array_equal(group.time, TIME)
     np.testing.assert_array_equal(group.channels["ans[2]"], SIGNALS[:, 0])
-
-
-@pytest.mark.parametrize("beside", [{"t": TIME}, {}], ids=["another time", "no rising row"])
-def test_no_other_row_is_believed_to_be_a_time(read, beside):
-    matrix = np.vstack([TIME if beside else -TIME, SIGNALS.T])
-    [group] = read({"data": matrix, **beside}).groups
-    assert group.time is None
-    assert {"data[1]", "data[4]"} <= set(group.channels)
+    for first, others in ((TIME, {"t": TIME}), (-TIME, {})):  # there is another time; no row rises
+        [group] = read({"data": np.vstack([first, SIGNALS.T]), **others}).groups
+        assert group.time is None
+        assert {"data[1]", "data[4]"} <= set(group.channels)
 
 
 def test_structures_are_searched_and_what_is_no_series_is_skipped_with_a_reason(read):
@@ -280,15 +269,11 @@ def test_no_reference_number_is_ever_a_channel_and_every_object_keeps_its_name(r
     assert (set(channels_of(contents)), set(contents.skipped)) == ({"t"}, {"speed", "v1"})
 
 
-def test_an_object_in_a_structure_array_is_named_by_its_expression(tmp_path):
+def test_an_object_in_a_structure_is_named_by_its_expression(tmp_path):
     path = tmp_path / "bus.mat"
     write_version_73(path, {"bus": [{"v": Unreadable("timeseries")}] * 2, "t": TIME})
     skipped = read_here("mat", path, Dialect()).skipped
     assert "s.bus_2_v = struct('time', bus(2).v.Time, " in skipped["bus(2).v"]
-
-
-def test_an_object_in_a_structure_of_version_5_is_named_by_its_expression(tmp_path):
-    path = tmp_path / "bus.mat"
     write_version_5(path, {"t": TIME})
     fields = struct.pack("<HHi", 5, 4, 8) + _element(1, b"v".ljust(8, b"\0"))
     shape = _element(5, struct.pack("<ii", 1, 1))
@@ -321,9 +306,12 @@ def test_what_the_line_for_logs_saves_is_read_with_its_time(read, saved, names):
     np.testing.assert_array_equal(group.channels[names[0]], SIGNALS[:, 0])
 
 
-def test_what_the_line_for_tables_saves_is_read(read):
+def test_what_the_line_for_tables_saves_is_read_and_a_short_log_has_the_samples_of_its_time(read):
     [group] = read({"time": COLUMN, "speed": SIGNALS[:, :1], "force": SIGNALS[:, 1:]}).groups
     assert set(group.channels) == {"time", "speed", "force[1]", "force[2]"}
+    log = {"time": np.array([0.0, 0.1]), "signals": {"values": SIGNALS[:2], "label": "v"}}
+    [group] = read({"simout": log}).groups
+    np.testing.assert_array_equal(group.channels["v[3]"], SIGNALS[:2, 2])
 
 
 @pytest.mark.parametrize(("code", "kind"), [(0, "f8"), (10, "f4"), (30, "i2")])

@@ -50,15 +50,15 @@ _BROKEN = make_result(outcome="error", criteria=(), measures=None, wheelsets=(),
 @pytest.mark.parametrize(
     ("result", "said", "not_said"),
     [
-        (_failing("slides", expect="fail"), ["All as expected"], "locked-wheels"),
-        (make_result(expect="fail"), ["unexpected pass", "Expected: fail"], "All as expected"),
-        (_BROKEN, ["the FMU stopped"], "All as expected"),
+        (_failing("slides", expect="fail"), "All as expected", "locked-wheels"),
+        (make_result(expect="fail"), "unexpected pass", "All as expected"),
+        (make_result(expect="fail"), "Expected: fail", "All as expected"),
+        (_BROKEN, "the FMU stopped", "All as expected"),
     ],
-    ids=["fails-as-expected", "unexpected-pass", "error"],
 )
 def test_a_finding_is_what_is_not_as_expected(result, said, not_said):
     first = _first(page_html(make_content(result)))
-    assert [words for words in said if words not in first] == []
+    assert said in first
     assert not_said not in first
 
 
@@ -81,7 +81,7 @@ def test_a_finding_states_its_conditions_and_of_several_wheelsets_the_worst():
     assert "wheelsets 2 and 4, worst: wheelset 2 at 10 to 12 s" in said
 
 
-def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named():
+def test_where_all_is_well_the_least_to_spare_is_named_and_what_is_close_with_a_link_and_a_count():
     nearest = make_verdict(value=540.0, lower=400.0, upper=600.0, margin=60.0)
     wide = make_verdict(value=500.0, lower=400.0, upper=600.0, margin=100.0)
     cases = [make_result(id="wide", criteria=(wide,)), make_result(id="nearest", criteria=(nearest,))]
@@ -89,9 +89,6 @@ def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named():
     assert "All as expected. Least to spare: nearest" in said
     assert "540 m, 400 .. 600 m, margin 60 m (+10 %)" in said
     assert TITLE not in said
-
-
-def test_what_is_close_or_uncertain_is_named_with_a_link_and_the_rest_is_counted():
     cases = [
         make_result(id=f"close-{n:02}", criteria=(make_verdict(value=441.0 + n, margin=1.0 + n),))
         for n in range(MOST_CLOSE + 2)
@@ -102,12 +99,6 @@ def test_what_is_close_or_uncertain_is_named_with_a_link_and_the_rest_is_counted
     assert re.search(r'<li class="shape shape-narrow"><a href="#case-close-00">', html)
     assert "2 more are marked below" in said
     assert "Least to spare" not in said
-
-
-def test_many_findings_are_counted_and_none_is_lost():
-    html = page_html(make_content(*(_failing(f"case-{n:02}") for n in range(15))))
-    assert "3 more stand below" in _first(html)
-    assert len(re.findall(r"<tr [^>]*data-word=\"fail\"", html)) == 15
 
 
 _AT_NARROW = 490.0 * NARROW / 100
@@ -129,14 +120,12 @@ def test_a_cell_of_the_matrix_is_shaped_by_its_margin(changes, kind):
     assert [margin.kind for margin in (*margins.judged, *margins.not_applicable)] == [kind]
 
 
-def test_what_does_not_apply_is_told_from_what_a_case_is_not_judged_by():
+def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_counted():
     idle = make_verdict(id="idle", status="not_applicable", value=None, margin=None)
     html = page_html(make_content(make_result(id="a", criteria=(idle,)), make_result(id="b")))
+    # What does not apply is told from what a case is not judged by.
     cells = re.findall(r'<td class="number criterion[^>]*>([^<]*)</td>', html)
     assert cells == ["+5.05", "–", "–", "n/a"]  # noqa: RUF001 - dashes on paper
-
-
-def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_counted():
     many = [make_verdict(id=f"criterion-{n:02}") for n in range(12)]
     missed = make_verdict(id="zz-missed", margin=-5.0, status="fail")
     html = page_html(make_content(_failing("a", *many, missed), make_result(id="b", criteria=(many[0],))))
@@ -145,34 +134,32 @@ def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_count
     assert "zz-missed" in table[: table.index("</thead>")]
     rows = re.findall(r"<tr [^>]*data-word.*?</tr>", table, re.S)
     assert [row.count("number criterion") for row in rows] == [10, 10]
+    # Many findings are counted, and none is lost.
+    html = page_html(make_content(*(_failing(f"case-{n:02}") for n in range(15))))
+    assert "3 more stand below" in _first(html)
+    assert len(re.findall(r"<tr [^>]*data-word=\"fail\"", html)) == 15
 
 
 @pytest.mark.parametrize(
-    ("typed", "kept"),
+    ("command", "file", "case_id", "again"),
     [
-        ("scenarios -k slip -n 2 -o out --record all", ""),
-        ("--set rail.friction=0.09 --seed 3 -x", "--set rail.friction=0.09 --seed 3 "),
-        (
-            "--seed=3 --repeat 5 --trust more -q --in-process",
-            "--seed=3 --repeat 5 --trust more --in-process ",
-        ),
+        # What changes a case is kept, and nothing else.
+        ("run scenarios -k slip -n 2 -o out --record all", "a/slip.yaml", "slip", "a/slip.yaml -k slip"),
+        ("run --set rail.friction=0.09 --seed 3 -x", "a/slip.yaml", "slip",
+         "a/slip.yaml --set rail.friction=0.09 --seed 3 -k slip"),
+        ("run --seed=3 --repeat 5 --trust more -q --in-process", "a/slip.yaml", "slip",
+         "a/slip.yaml --seed=3 --repeat 5 --trust more --in-process -k slip"),
+        # Recorded stops, and cases that a program may have changed, have no such command.
+        ("evaluate a.csv", "a.yaml", "a", ""),
+        ("", "a.yaml", "a", ""),
+        (("run", CASES_IN_PYTHON, "a.yaml"), "a.yaml", "a", ""),
+        # What the shell would read is quoted, and a file like an option is still a file.
+        ("run --seed 3 -- -x.yaml", "-x.yaml", "x", "./-x.yaml --seed 3 -k x"),
+        (("run", "--set", "rail.friction=0.08, 0.09"), "my stops.yaml", "slip[friction=0.08]; rm x",
+         "'my stops.yaml' --set 'rail.friction=0.08, 0.09' -k 'slip[friction=0.08]; rm x'"),
     ],
-)
-def test_what_changes_a_case_is_kept_and_nothing_else(typed, kept):
-    manifest = RunManifest(command=("uictest", "run", *typed.split()))
-    assert rerun_command(manifest, "a/slip.yaml", "slip") == f"uictest run a/slip.yaml {kept}-k slip"
-
-
-@pytest.mark.parametrize("command", [("evaluate", "a.csv"), (), ("run", CASES_IN_PYTHON, "a.yaml")])
-def test_recorded_stops_and_cases_that_a_program_may_have_changed_have_no_such_command(command):
-    assert rerun_command(RunManifest(command=("uictest", *command)), "a.yaml", "a") == ""
-
-
-def test_what_the_shell_would_read_is_quoted_and_a_file_like_an_option_is_still_a_file():
-    manifest = RunManifest(command=("uictest", "run", "--seed", "3", "--", "-x.yaml"))
-    assert rerun_command(manifest, "-x.yaml", "x") == "uictest run ./-x.yaml --seed 3 -k x"
-    manifest = RunManifest(command=("uictest", "run", "--set", "rail.friction=0.08, 0.09"))
-    command = rerun_command(manifest, "my stops.yaml", "slip[friction=0.08]; rm x")
-    assert command == (
-        "uictest run 'my stops.yaml' --set 'rail.friction=0.08, 0.09' -k 'slip[friction=0.08]; rm x'"
-    )
+)  # fmt: skip
+def test_the_command_that_runs_a_case_again(command, file, case_id, again):
+    words = command.split() if isinstance(command, str) else command
+    found = rerun_command(RunManifest(command=("uictest", *words)), file, case_id)
+    assert found == (f"uictest run {again}" if again else "")

@@ -100,13 +100,10 @@ def test_what_a_cell_stands_for_is_stated():
     assert [(each.title, each.anchor) for each in shown.maps] == [("Mean distance, m", "map-distance-a-b")]
 
 
-def test_what_differs_by_rounding_has_one_colour():
+def test_what_differs_by_rounding_has_one_colour_and_what_differs_little_digits_and_colours_of_its_own():
     """0.1 + 0.2 is not 0.3 in floats: a mean over other cases would have the other end of the scale."""
     [found] = maps_of(cells([[1, 1]], [[1, 1]], distance=[[0.3, 0.1 + 0.2]])).maps
     assert len({cell.colour for cell in found.rows[0][1]}) == 1
-
-
-def test_values_that_differ_little_have_the_digits_and_the_colours_that_tell_them_apart():
     [found] = maps_of(cells([[1, 1]], [[1, 1]], distance=[[469.61, 469.63]])).maps
     shown = [(cell.text, cell.colour, cell.kind) for cell in found.rows[0][1]]
     assert shown == [("469.61", "#440154", "light"), ("469.63", "#fde725", "dark")]

@@ -22,7 +22,7 @@ from uictest.report.sweep.sweep_maps import (
     short_label,
 )
 
-from ..sweep_rows import DRAWN, drawn_rows, row, sweep_result, write_rows
+from ..sweep_rows import INTERVALS, drawn_rows, row, sweep_result, write_rows
 
 VALUES = {"friction": ["0.1", "0.2"], "command": ["80 %", "90 %", "100 %"], "topology": ["one", "four"]}
 
@@ -62,7 +62,7 @@ def test_a_cell_has_the_counts_and_the_mean_of_its_cases(tmp_path):
 def test_every_row_is_in_one_cell_of_every_pair(tmp_path):
     rows = drawn_rows(500, failing=range(0, 500, 7))
     write_rows(tmp_path, rows)
-    result = sweep_result(DRAWN, len(rows))
+    result = sweep_result(INTERVALS, len(rows))
     (cells,) = map_cells(result, SummaryRows(tmp_path), mapped_pairs(result), reported_columns(result))
     frictions = np.array([float(each["parameters.rail.friction"]) for each in rows])
     gains = np.array([float(each["parameters.gain"].split()[0]) for each in rows])
@@ -97,7 +97,7 @@ def test_a_value_that_the_result_does_not_have_is_refused(tmp_path):
         map_cells(sweep_result(VALUES, 1), SummaryRows(tmp_path), [("friction", "command")], [])
 
 
-def test_every_pair_is_mapped_and_that_of_the_result_comes_first():
+def test_every_pair_is_mapped_that_of_the_result_first_with_the_cells_of_all_its_measures():
     keys = (("rows", "topology"), ("columns", "friction"))
     axes = {name: {"parameter": key, "values": VALUES[key]} for name, key in keys}
     maps = [{"measure": "met", **axes, "means": [], "met": [], "cases": []}]
@@ -105,6 +105,10 @@ def test_every_pair_is_mapped_and_that_of_the_result_comes_first():
     # One value makes no axis.
     pairs = ["topology friction", "friction command", "command topology"]
     assert list(map(" ".join, mapped_pairs(result))) == pairs
+    maps = [made_up_map(2, 3, "met"), made_up_map(2, 3), made_up_map(2, 3, "largest")]
+    cells = cells_of_maps(maps, [])
+    assert list(cells.means) == ["braking distance, m", "largest"]
+    assert (cells.outcomes, cells.met.tolist()) == ({}, [[1, 1, 1]] * 2)
 
 
 def made_up_map(rows, columns, measure="braking_distance_m"):
@@ -140,13 +144,6 @@ def test_a_fold_is_named_by_its_ends_and_a_mean_counts_the_cases_that_have_the_m
     unknown = replace(made_up_map(2, 2), means=[[None, 3.0], [5.0, None]], cases=[[9, 1], [3, 9]], known=None)
     assert folded(unknown, 1).means["braking_distance_m"].tolist() == [[4.5]]
     assert np.isnan(folded(replace(unknown, means=[[None] * 2] * 2), 1).means["braking_distance_m"]).all()
-
-
-def test_maps_of_a_result_are_the_cells_of_all_its_measures():
-    maps = [made_up_map(2, 3, "met"), made_up_map(2, 3), made_up_map(2, 3, "largest")]
-    cells = cells_of_maps(maps, [])
-    assert list(cells.means) == ["braking distance, m", "largest"]
-    assert (cells.outcomes, cells.met.tolist()) == ({}, [[1, 1, 1]] * 2)
 
 
 @given(st.integers(1, 300), st.integers(1, 30))
@@ -209,7 +206,7 @@ def test_each_column_is_headed_by_exactly_the_values_it_shows(columns, width):
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 120])
-def test_a_map_keeps_to_the_width_of_the_terminal(width):
+def test_a_map_keeps_to_the_width_of_the_terminal_and_only_what_is_whole_is_shown_as_whole(width):
     _, remark, *table = map_lines(made_up_map(31, 31), width)
     assert max(map(len, table)) <= width
     assert "31 values of rail.friction in 16 rows" in remark
@@ -217,9 +214,6 @@ def test_a_map_keeps_to_the_width_of_the_terminal(width):
     small = list(map_lines(made_up_map(3, 3), width))
     assert len(small) == 1 + 1 + 3
     assert "folded" not in "".join(small)
-
-
-def test_only_what_is_whole_is_shown_as_whole():
     shares = [[0.0, 0.001, 0.5, 0.999, 1.0, None]]
     what, _, line = map_lines(replace(made_up_map(1, 6, "met"), means=shares), None)
     assert what == "share met (# none, 1-9 tenths, . all): rail.friction down, brake.command across"

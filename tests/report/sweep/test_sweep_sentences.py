@@ -1,11 +1,13 @@
-"""A sweep in words: counts, swept values, shares, flips, notable cases, and what a CI server is told."""
+"""A sweep in words: its values, counts, shares, flips, notable cases, and what a CI server is told."""
 
 import shlex
 
+import numpy as np
 import pytest
+from pydantic import TypeAdapter
 
 from uictest.judging.evaluation import Deviation
-from uictest.report import DrawnInterval, Flip, OutcomeCount, WrittenValue
+from uictest.report import DrawnInterval, Flip, OutcomeCount, SweptValue, WrittenValue
 from uictest.report.sweep.result import OutsideCount, SurveyBias, SurveyStep, SweepDomain
 from uictest.report.sweep.sweep_sentences import (
     MOST_ANNOTATED,
@@ -22,9 +24,73 @@ from uictest.report.sweep.sweep_sentences import (
     sweep_tally,
     swept_words,
 )
+from uictest.report.sweep.values import interval_indices, range_label
 
 from ..builders import HOSTILE, make_result
 from ..sweep_rows import sweep_result
+
+ADAPTER = TypeAdapter(SweptValue)
+
+
+@pytest.mark.parametrize(
+    ("value", "text", "number", "unit"),
+    [
+        (WrittenValue("80 km/h"), "80 km/h", 80.0, "km/h"),
+        (WrittenValue("0.12"), "0.12", 0.12, ""),
+        (WrittenValue("one-caliper"), "one-caliper", None, ""),
+        (WrittenValue(""), "", None, ""),
+        (WrittenValue("0.1 .. 0.2"), "0.1 .. 0.2", 0.1, ".. 0.2"),
+    ],
+)
+def test_a_written_value_keeps_its_number_and_is_its_text_in_json(value, text, number, unit):
+    assert ADAPTER.dump_python(value, mode="json") == text
+    assert ADAPTER.validate_python(text) == value
+    assert (value.label, value.number, value.unit) == (text, pytest.approx(number), unit)
+
+
+@pytest.mark.parametrize(
+    ("interval", "label", "middle"),
+    [
+        (DrawnInterval(60.0, 70.0, "%"), "60 .. 70 %", 65.0),
+        (DrawnInterval(2.19e-8, 2.38e-8, "m3/s"), "2.19e-08 .. 2.38e-08 m3/s", 2.285e-8),
+        (DrawnInterval(-0.5, 0.0, ""), "-0.5 .. 0", -0.25),
+    ],
+)
+def test_an_interval_is_its_ends_in_json(interval, label, middle):
+    form = {"low": interval.low, "high": interval.high, "unit": interval.unit}
+    assert ADAPTER.dump_python(interval, mode="json") == form
+    assert ADAPTER.validate_python(form) == interval
+    assert (interval.label, interval.number) == (label, pytest.approx(middle))
+
+
+@pytest.mark.parametrize(
+    "other", [None, 3, ["a"], {"low": 1.0, "unit": "m"}, {"low": "a", "high": 2, "unit": ""}]
+)
+def test_what_is_neither_text_nor_interval_is_no_value(other):
+    with pytest.raises(ValueError, match="validation error"):
+        ADAPTER.validate_python(other)
+
+
+@pytest.mark.parametrize(
+    ("unit", "numbers", "expected"),
+    [
+        ("km/h", [0.0, 19.99, 20.0, 50.0], [0, 0, 1, 1]),  # 72 km/h
+        ("", [71.9, 72.0], [0, 1]),
+        ("degC", [345.14, 345.15], [0, 1]),
+    ],
+)
+def test_a_number_at_a_boundary_lies_in_the_upper_interval(unit, numbers, expected):
+    intervals = [DrawnInterval(36.0, 72.0, unit), DrawnInterval(72.0, 108.0, unit)]
+    assert interval_indices(intervals, np.array(numbers)).tolist() == expected
+
+
+def test_neighbouring_values_are_labelled_by_their_ends():
+    intervals = [DrawnInterval(0.06, 0.07, "m"), DrawnInterval(0.07, 0.08, "m")]
+    assert range_label(intervals) == "0.06 .. 0.08 m"
+    assert range_label(intervals[:1]) == "0.06 .. 0.07 m"
+    assert range_label([WrittenValue("dry"), WrittenValue("wet")]) == "dry .. wet (2 values)"
+    assert range_label([WrittenValue("dry")]) == "dry"
+
 
 OUTCOMES = {"pass": 70, "fail": 1, "invalid": 0, "error": 1, "skipped": 0, "inconclusive": 3}
 
@@ -59,17 +125,11 @@ def test_what_is_swept_is_described_by_its_ends(values, shown):
     ("met", "cases", "share", "blocks"),
     [(1000, 1000, "100", 10), (999, 1000, "99", 9), (1, 1000, "1", 1), (0, 9, "0", 0), (1, 4, "25", 2)],
 )
-def test_only_what_is_whole_is_shown_as_whole(met, cases, share, blocks):
+def test_only_what_is_whole_is_shown_as_whole_and_no_case_has_no_share(met, cases, share, blocks):
     assert share_words(met, cases) == share
     assert bar(met, cases) == "█" * blocks + "░" * (10 - blocks)
-
-
-def test_no_case_has_no_share():
-    assert (share_words(0, 0), bar(0, 0), OutcomeCount(WrittenValue("1"), 0, 0, {}).share_met) == (
-        "-",
-        "",
-        None,
-    )
+    assert (share_words(0, 0), bar(0, 0)) == ("-", "")
+    assert OutcomeCount(WrittenValue("1"), 0, 0, {}).share_met is None
 
 
 LOW, HIGH = WrittenValue("0.10"), WrittenValue("0.11")
@@ -160,9 +220,7 @@ def test_cases_that_are_not_met_are_annotated_and_the_sweep_is_counted(make_swee
     many = annotations(make_sweep(tuple(make_result(id=f"case-{k}", outcome="fail") for k in range(12))))
     assert sum(line.startswith("::error ") for line in many) == MOST_ANNOTATED
     assert "title=fail case-0::" in many[0]
-
-
-def test_a_hostile_name_cannot_start_a_command_of_its_own(make_sweep):
+    # A hostile name cannot start a command of its own.
     bad = make_result(id=HOSTILE, parameters={HOSTILE: HOSTILE}, outcome="error", reason=HOSTILE)
     for line in annotations(make_sweep((bad,), HOSTILE)):
         assert line.startswith(("::error file=", "::notice file="))
@@ -174,45 +232,27 @@ SPEED = OutsideCount(3, Deviation("initial_speed", (30.0, 40.0), (10.0, 20.0), "
 BIASES = (SurveyBias("braking distance", 0.0012, "slip-120", 0.05), SurveyBias("time", 1e-5, "dry", 0.0))
 
 
+BIASED = "bias of the survey step"
+OUTSIDE = "3 of 5 cases outside of what my-train validated"
+
+
 @pytest.mark.parametrize(
     ("notes", "said"),
     [
         (domain_notes(None, 5), []),
-        (
-            domain_notes(SweepDomain("my-train", "00", 0), 1),
-            ["0 of 1 case outside of what my-train validated"],
-        ),
-        (
-            domain_notes(SweepDomain("my-train", "00", 3, (SPEED,) * 7), 5),
-            [
-                "3 of 5 cases outside of what my-train validated: "
-                + "; ".join(["initial_speed 144 km/h > 72 km/h in 3"] * 6)
-                + "; 1 more condition in results.json"
-            ],
-        ),
+        (domain_notes(SweepDomain("a", "00", 0), 1), ["0 of 1 case outside of what a validated"]),
+        (domain_notes(SweepDomain("my-train", "00", 3, (SPEED,) * 7), 5),
+         [f"{OUTSIDE}: {'initial_speed 144 km/h > 72 km/h in 3; ' * 6}1 more condition in results.json"]),
         (survey_notes(None, 5), []),
-        (
-            survey_notes(SurveyStep("1 ms", "0.5 ms", 0, BIASES, ("energy",)), 5),
-            [
-                "survey in steps of 1 ms, which settled all of 5 cases",
-                "bias of the survey step: not known of energy",
-                (
-                    "bias of the survey step: braking distance at most 0.12 % on average (slip-120),"
-                    " 5 % in 95 % of single stops"
-                ),
-                "bias of the survey step: below 0.01 % in 1 other measure judged or mapped",
-            ],
-        ),
-        (
-            survey_notes(SurveyStep("1 ms", "0.5 ms", 2, ()), 5),
-            [
-                (
-                    "survey in steps of 1 ms, which could not settle 2 of 5 cases:"
-                    " these were repeated in steps of 0.5 ms"
-                )
-            ],
-        ),
+        (survey_notes(SurveyStep("1 ms", "0.5 ms", 0, BIASES, ("energy",)), 5),
+         ["survey in steps of 1 ms, which settled all of 5 cases",
+          f"{BIASED}: not known of energy",
+          f"{BIASED}: braking distance at most 0.12 % on average (slip-120), 5 % in 95 % of single stops",
+          f"{BIASED}: below 0.01 % in 1 other measure judged or mapped"]),
+        (survey_notes(SurveyStep("1 ms", "0.5 ms", 2, ()), 5),
+         [("survey in steps of 1 ms, which could not settle 2 of 5 cases:"
+           " these were repeated in steps of 0.5 ms")]),
     ],
-)
+)  # fmt: skip
 def test_what_bounds_a_sweep_is_noted(notes, said):
     assert list(notes) == said

@@ -1,4 +1,6 @@
-"""The tables of a sweep and its summary: the same for programs and people, few rows for a reader."""
+"""The result of a sweep: read back, as tables, and in its summary."""
+
+import json
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -6,7 +8,8 @@ import pytest
 from markdown_it import MarkdownIt
 
 from uictest.core.document import Lines
-from uictest.report import publication_of_sweep, publish
+from uictest.report import publication_of_sweep, publish, write_recording
+from uictest.report.sweep.result import read_sweep, sweep_document
 from uictest.report.sweep.sweep_tables import (
     frontier_table,
     map_table,
@@ -18,8 +21,44 @@ from uictest.report.sweep.sweep_tables import (
     trends_table,
 )
 
-from ..builders import HOSTILE, make_result
-from ..workbooks import assert_as_csv
+from ..builders import HOSTILE, assert_as_csv, make_recording, make_result
+
+
+@pytest.fixture
+def folder(make_sweep):
+    """The folder of a finished sweep with one case worth looking at."""
+    content = make_sweep((make_result(),))
+    document = sweep_document(content.result)
+    (content.folder / "results.json").write_text(json.dumps(document))
+    (content.folder / "manifest.json").write_text(json.dumps(content.manifest))
+    return content.folder
+
+
+def test_a_sweep_is_read_back_with_its_recordings_where_they_are_to_be_drawn(folder, make_sweep):
+    content = read_sweep(folder)
+    assert sweep_document(content.result) == sweep_document(make_sweep((make_result(),)).result)
+    assert (content.folder, content.manifest) == (folder, make_sweep().manifest)
+    assert content.traces == {}
+    write_recording(folder, "dry-120[command=90]", make_recording(400))
+    assert list(read_sweep(folder, traces=True).traces) == ["dry-120[command=90]"]
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{", '{"schema": "uictest/result/1"}'])
+def test_what_is_no_sweep_is_rejected(folder, text):
+    (folder / "results.json").write_text(text)
+    with pytest.raises(ValueError, match=r"results\.json"):
+        read_sweep(folder)
+
+
+def test_a_worst_case_that_is_none_or_whose_id_is_a_path_is_refused(folder):
+    document = json.loads((folder / "results.json").read_text())
+    escaped = {**document["worst"][0], "id": "../escaped"}
+    wrong = "not the result of a sweep"
+    reasons = [([{}], wrong), ([1], wrong), (1, wrong), ([escaped], ".*is not the name of a file")]
+    for worst, reason in reasons:
+        (folder / "results.json").write_text(json.dumps(document | {"worst": worst}))
+        with pytest.raises(ValueError, match=rf"results\.json: {reason}"):
+            read_sweep(folder)
 
 
 def shown(table):
@@ -38,12 +77,8 @@ def test_rates_have_the_share_met_at_each_value(make_sweep):
     assert (whole["share_met"], whole["pass"], none["share_met"], none["pass"]) == (0.75, 3, None, None)
     assert second["share_met"] == 0.5
     assert shown(table)[:6] == [
-        ["parameter", "brake.90 %", ""],
-        ["value", "80 %", "90 %"],
-        ["cases", "2", "2"],
-        ["met", "2", "1"],
-        ["met\n%", "100", "50"],
-        [" ", "██████████", "█████░░░░░"],
+        *(["parameter", "brake.90 %", ""], ["value", "80 %", "90 %"], ["cases", "2", "2"]),
+        *(["met", "2", "1"], ["met\n%", "100", "50"], [" ", "██████████", "█████░░░░░"]),
     ]
 
 
@@ -59,14 +94,8 @@ def test_maps_trends_sensitivities_and_the_frontier_are_tables(make_sweep):
     assert (index["90 %"], index["first"], index["total_high"]) == ("90 %", 0.5, 0.6)
     assert shown(sensitivity_table(result))[-2:] == [["with the others", "0.500"], ["95 %", "0.400 .. 0.600"]]
     (flip,) = frontier_table(result.frontier).records
-    assert flip == {
-        "90 %": "90 %",
-        "from": "90 %",
-        "to": "0.11",
-        "met_at_from": False,
-        "flips": 1,
-        "note": "90 %",
-    }
+    ends = {"90 %": "90 %", "from": "90 %", "to": "0.11"}
+    assert flip == ends | {"met_at_from": False, "flips": 1, "note": "90 %"}
     assert ["verdict", "not met up to 90 %, met from 0.11"] in shown(frontier_table(result.frontier))
     names = ["rates", "map-met", "map-braking_distance_m", "trends", "sensitivity", "frontier"]
     assert [table.name for table in sweep_tables(result)] == names
@@ -78,14 +107,9 @@ def test_the_summary_has_every_finding_what_decides_first(make_sweep):
     assert document.title == "uictest sweep: 4 cases: 3 pass, 1 fail; 1 not as expected"
     sections = {section.title: section for section in document.sections if section.title}
     assert list(sections) == [
-        "90 %",
-        "Share of cases met, %",
-        "Cases most worth looking at",
-        "Cases met by value of each parameter",
-        "Share of the variance that each parameter explains",
-        "Frontier along 90 %",
-        "Measures",
-        "Notes",
+        *("90 %", "Share of cases met, %", "Cases most worth looking at"),
+        *("Cases met by value of each parameter", "Share of the variance that each parameter explains"),
+        *("Frontier along 90 %", "Measures", "Notes"),
     ]
     assert shown(sections["90 %"]) == [["parameter", "brake.90 %"], ["values", "80 %, 90 %"]]
     assert shown(sections["Share of cases met, %"]) == [

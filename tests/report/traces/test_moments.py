@@ -20,12 +20,8 @@ from ..builders import make_recording, make_verdict
 DEFINED = {"locked_speed": 0.1, "moving_speed": 10 / 3.6, "low_speed_cutoff": 30 / 3.6, "end_speed": 60 / 3.6}
 DEFINED |= {"sliding_slide": 0.05, "sliding_slip": 0.3, "sliding_below": 0.9, "deceleration_filter": 0.5}
 DEFINED |= {"rising_share": 0.05, "developed_share": 0.95, "reduced_share": 0.9, "released_share": 0.2}
-DEFINED |= {
-    "developed_time": 2.0,
-    "first_phase_duration": 3.0,
-    "monitored_speed": 50 / 3.6,
-    "monitored_share": 0.3,
-}
+DEFINED |= {"developed_time": 2.0, "first_phase_duration": 3.0}
+DEFINED |= {"monitored_speed": 50 / 3.6, "monitored_share": 0.3}
 
 
 def _verdict(measure, value=None, **definitions):
@@ -75,22 +71,18 @@ def test_every_measure_says_when_it_is_decided_and_where_that_is_shown():
     assert undecided == {"reference_distance", "compensation_misfit"}
 
 
-@pytest.mark.parametrize("measure", ["report_time", "required_report_time"])
-def test_a_report_is_late_from_the_fault_of_its_wheelset_to_the_first_that_says_so(reported, measure):
-    verdict = _verdict(measure, 3.0, **DEFINED)
-    moments = moments_of([verdict], reported)["it"]
-    [(start, end)] = moments.intervals[2]
-    assert (start, end) == pytest.approx((5.0, 8.0), abs=0.021)
-    assert moments.intervals.keys() == {2}
-    assert moments.wheelset == 2
-
-
-def test_a_false_report_lasts_from_the_first_on(reported):
-    moments = moments_of([_verdict("false_reports", 1.0, **DEFINED)], reported)["it"]
-    [(start, end)] = moments.intervals[4]
-    assert start == pytest.approx(9.0, abs=0.021)
-    assert end == reported["time"][-1]
-    assert moments.intervals.keys() == {4}
+@pytest.mark.parametrize(
+    ("measure", "wheelset", "start", "end"),
+    [("report_time", 2, 5.0, 8.0), ("required_report_time", 2, 5.0, 8.0), ("false_reports", 4, 9.0, None)],
+)
+def test_a_report_is_late_from_the_fault_to_the_first_that_says_so_and_a_false_one_to_the_end(
+    reported, measure, wheelset, start, end
+):
+    moments = moments_of([_verdict(measure, 3.0, **DEFINED)], reported)["it"]
+    assert moments.intervals.keys() == {wheelset}
+    last = reported["time"][-1] if end is None else end
+    assert moments.intervals[wheelset] == [pytest.approx((start, last), abs=0.021)]
+    assert measure == "false_reports" or moments.wheelset == wheelset
 
 
 @pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.decided])
@@ -111,7 +103,6 @@ def _reported(stop):
 def test_the_wheelset_that_has_the_value_is_found_whichever_measure_is_judged_alone(faulty_stop, measure):
     """What a measure reads of the records was fed, or comes from the result: air and what the rail offers."""
     record, own = faulty_stop.recording, MEASURES[measure]
-    assert record is not None
     values = own.read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
     for wheelset in (values.index(max(values)) + 1, values.index(min(values)) + 1):
         verdict = _verdict(measure, in_unit(values[wheelset - 1], own.unit), **DEFINED)
@@ -122,7 +113,6 @@ def test_the_wheelset_that_has_the_value_is_found_whichever_measure_is_judged_al
 def test_without_the_wheelset_that_decides_no_place_is_shown(faulty_stop):
     """The vents of all wheelsets together are no place at which one of them vented its air."""
     record = faulty_stop.recording
-    assert record is not None
     verdict = replace(_verdict("air_vented", 1.0), status="fail")
     assert taken_at(verdict, trace_of(record, [verdict])) is None
     vented = [own["air_vented_nl"] for own in _reported(faulty_stop)]
@@ -141,7 +131,6 @@ def test_without_the_wheelset_that_decides_no_place_is_shown(faulty_stop):
 @pytest.mark.parametrize("measure", TIMES)
 def test_the_intervals_of_a_duration_last_as_long_as_the_rig_measured(faulty_stop, measure):
     record, own = faulty_stop.recording, MEASURES[measure]
-    assert record is not None
     values = own.read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
     value = max(values)
     moments = moments_of([_verdict(measure, value, **DEFINED)], record)["it"]
@@ -165,7 +154,6 @@ def test_the_intervals_of_a_duration_last_as_long_as_the_rig_measured(faulty_sto
 )
 def test_an_extreme_is_as_high_as_the_rig_measured(faulty_stop, measure, unit):
     record = faulty_stop.recording
-    assert record is not None
     values = MEASURES[measure].read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
     moments = moments_of([_verdict(measure, 1.0, **DEFINED)], record)["it"]
     assert [height for _, height in moments.extremes.values()] == pytest.approx(
@@ -173,7 +161,7 @@ def test_an_extreme_is_as_high_as_the_rig_measured(faulty_stop, measure, unit):
     )
 
 
-def test_a_lock_of_a_few_samples_is_found():
+def test_a_lock_of_a_few_samples_is_found_and_a_slide_and_a_pressure_where_they_count():
     record = make_recording(34_001)
     record["wheel_speed_2"][20_000:20_003] = 0.0
     lock = _verdict("longest_lock", moving_speed=2.0, locked_speed=0.1)
@@ -181,22 +169,16 @@ def test_a_lock_of_a_few_samples_is_found():
     assert wheelset == 2
     # From the sample before the lock to its last, as the measure counts it.
     assert intervals == [(pytest.approx(19.999), pytest.approx(20.002))]
-
-
-def test_the_largest_slide_counts_above_the_cutoff_only():
+    # The largest slide counts above the cut-off only.
     record = make_recording()
     record["wheel_speed_1"][(record["time"] > 30.0)] *= 0.1
-    defined = {"low_speed_cutoff": 30 / 3.6, "moving_speed": 10 / 3.6}
-    slide = _verdict("maximum_slide_above_cutoff", **defined)
+    slide = _verdict("maximum_slide_above_cutoff", low_speed_cutoff=30 / 3.6, moving_speed=10 / 3.6)
     moments = moments_of([slide], record)["it"]
     time, value = moments.extremes[1]
     assert 5.0 < time < 15.0
     assert value == pytest.approx(40.0)
     assert moments.span == (0.0, pytest.approx(25.0, abs=0.011))
-
-
-def test_a_pressure_that_only_rises_is_lowest_at_the_beginning():
-    record = make_recording()
+    # A pressure that only rises is lowest at the beginning.
     record["reservoir_pressure"][:] = 7e5 + 1e3 * record["time"]
     moments = moments_of([_verdict("reservoir_minimum_pressure")], record)["it"]
     assert moments.extremes == {TRAIN: (0.0, pytest.approx(7.0))}
@@ -214,7 +196,6 @@ def test_what_is_not_defined_or_not_recorded_has_no_moments():
 
 def test_a_gap_in_the_demanded_pressure_hides_no_build_up(faulty_stop):
     record = faulty_stop.recording
-    assert record is not None
     build_up = _verdict("build_up_time", **DEFINED)
     whole = moments_of([build_up], record)["it"]
     assert whole.span is not None

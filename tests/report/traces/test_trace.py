@@ -1,4 +1,4 @@
-"""What the plots of a stop are drawn from: lines, states, faults, vents, and the band of repeated stops."""
+"""What the plots of a stop are drawn from: units, states, faults, vents, the band of repeated stops."""
 
 import math
 from dataclasses import replace
@@ -8,8 +8,18 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.recording import Recording
+from uictest.core.units import SIZES
 from uictest.report.page.marks import fault_marks
-from uictest.report.traces.quantities import HOLD, PANELS, STRIPS, VENT
+from uictest.report.traces.quantities import (
+    HOLD,
+    PANELS,
+    PLOT_QUANTITIES,
+    STRIPS,
+    VENT,
+    channel_names,
+    channel_title,
+    shown_unit,
+)
 from uictest.report.traces.trace import (
     BINS,
     MOST_SAMPLES,
@@ -26,6 +36,39 @@ from uictest.report.traces.trace import (
 )
 
 from ..builders import make_recording
+
+SI = {"km/h": "m/s", "bar": "Pa", "kN": "N", "N m": "N m", "degC": "K", "%": "1", "m": "m", "1": "1"} | {
+    "g/m": "kg/m"
+}
+
+
+@pytest.mark.parametrize("key", [key for key in PLOT_QUANTITIES if key != "deceleration"])
+def test_every_quantity_of_the_page_has_its_unit_everywhere(key):
+    quantity = PLOT_QUANTITIES[key]
+    for name in channel_names(key):
+        assert shown_unit(name, SI[quantity.unit]) == quantity.unit
+    if quantity.scale != 1.0:
+        assert quantity.scale == SIZES[quantity.unit]
+
+
+@pytest.mark.parametrize(
+    ("channel", "recorded", "shown", "title"),
+    [
+        ("caliper_force_2", "N", "kN", "Caliper force of wheelset 2"),
+        ("demanded_pressure", "Pa", "bar", "Demanded pressure"),
+        ("measured_speed_3", "m/s", "km/h", "Measured speed of wheelset 3"),
+        ("air_temperature", "K", "degC", "Air temperature"),
+        ("pad_friction_1", "1", "1", "Pad friction of wheelset 1"),
+        ("lateral_acceleration", "m/s2", "m/s2", "Lateral acceleration"),
+        ("brake_torque_1", "N m", "N m", "Brake torque of wheelset 1"),
+        ("speed", "knot", "knot", "Speed"),
+        ("channel_20", "1", "1", "channel_20"),
+        ("MVB: v/ist", "1", "1", "MVB: v/ist"),
+    ],
+)
+def test_other_channels_have_a_title_and_are_shown_in_the_units_of_the_page(channel, recorded, shown, title):
+    assert (shown_unit(channel, recorded), channel_title(channel)) == (shown, title)
+
 
 WHEELSETS = (1, 2, 3, 4)
 
@@ -115,16 +158,13 @@ def test_a_magnet_is_on_in_some_states_of_its_valve(command, held, vented):
     assert trace.valve_spans(3, (VENT,)) == vented
 
 
-def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be():
+def test_a_slide_that_was_not_recorded_is_derived_and_missing_where_the_train_hardly_runs():
     whole = make_recording()
     channels = {name: samples for name, samples in whole.channels.items() if not name.startswith("slide")}
     trace = trace_of(Recording(channels, {name: whole.units[name] for name in channels}))
     assert np.nanmax(trace.curves["slide_1"].y) == pytest.approx(40.0)
     assert trace.derived == ("slide_1", "slide_2", "slide_3", "slide_4", "deceleration")
     assert trace_of(whole).derived == ("deceleration",)
-
-
-def test_a_slide_is_missing_where_the_train_hardly_runs_and_where_its_speed_is():
     derived = slide(np.array([10.0, 0.5, np.nan]), np.array([5.0, 0.0, 1.0]))
     assert derived == pytest.approx([0.5, np.nan, np.nan], nan_ok=True)
     speed = np.array([3.0, 2.0, 1.5, 0.5, 0.0])

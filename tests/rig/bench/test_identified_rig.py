@@ -55,13 +55,10 @@ def test_what_is_identified_lists_its_very_rig(tmp_path, identifications):
     assert float(rig.assemble(case).parameters["compensation_misfit"]) == 0.0
 
 
-def test_a_rig_with_four_calipers_needs_none(tmp_path, identifications):
+def test_four_calipers_need_none_and_no_stop_is_run_with_numbers_that_stand_in(tmp_path, identifications):
     case = stop(tmp_path, "rig.topology=four-caliper")
     assert bench.identified(case) is case
     assert identifications == []
-
-
-def test_a_stop_is_not_run_with_the_numbers_that_stand_in(tmp_path):
     with pytest.raises(ValueError, match="is to be identified first"):
         rig.assemble(stop(tmp_path))
 

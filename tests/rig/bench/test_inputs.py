@@ -21,17 +21,18 @@ from uictest.rig.bench.recipe import load_bench, recipe_names, recipe_path
 CLOCK = Clock(0.0005, 20)
 
 
-def test_levels_are_demanded_at_once_and_held():
+def test_steps_are_demanded_at_once_triangles_at_their_rate_and_inputs_one_after_the_other():
     applied = stepwise_input([1e5, 3e5], 0.5, CLOCK)
     assert applied.demanded_pressures[[0, 999, 1000, 1999]].tolist() == [1e5, 1e5, 3e5, 3e5]
     assert applied.valve_commands.tolist() == [FILL] * 100
-
-
-def test_a_triangle_rises_and_falls_at_its_rate():
     applied = triangular_input([2e5], 0.5e5, 1e5, CLOCK)
     assert len(applied.demanded_pressures) == 6000
     assert applied.demanded_pressures.max() == pytest.approx(2e5)
     assert np.abs(np.diff(applied.demanded_pressures)) == pytest.approx(50.0)
+    parts = [stepwise_input([1e5], 0.1, CLOCK), stepwise_input([2e5], 0.2, CLOCK)]
+    whole = joined_inputs(parts)
+    assert len(whole.valve_commands) == 30
+    assert whole.demanded_pressures[[0, -1]].tolist() == [1e5, 2e5]
 
 
 def test_random_pressure_depends_on_its_seed_alone():
@@ -56,26 +57,15 @@ def test_wsp_cycling_vents_holds_and_fills_within_its_spans():
     assert len(applied.demanded_pressures) == 20 * len(commands)
 
 
-def test_inputs_are_joined_one_after_the_other():
-    parts = [stepwise_input([1e5], 0.1, CLOCK), stepwise_input([2e5], 0.2, CLOCK)]
-    whole = joined_inputs(parts)
-    assert len(whole.valve_commands) == 30
-    assert whole.demanded_pressures[[0, -1]].tolist() == [1e5, 2e5]
-
-
-def test_a_recorded_command_was_in_force_since_the_sample_before():
+def test_a_recorded_command_was_in_force_since_the_sample_before_and_without_one_the_valves_fill():
     time = np.array([0.0, 0.01, 0.02, 0.03]) + 5.0
     applied = recorded_input(time, np.full(4, 3e5), np.array([0.0, 0.0, 2.0, 1.0]), CLOCK)
     assert applied.valve_commands.tolist() == [FILL, VENT, HOLD]
-
-
-def test_without_commands_the_valves_fill():
     applied = recorded_input(np.array([0.0, 1.0]), np.array([0.0, 1e5]), None, CLOCK)
     assert set(applied.valve_commands.tolist()) == {FILL}
     assert applied.demanded_pressures[-1] == pytest.approx(1e5)
-    assert np.array_equal(
-        applied.demanded_pressures, bypassed_input([0.0, 1.0], [0.0, 1e5], CLOCK).demanded_pressures
-    )
+    bypassed = bypassed_input([0.0, 1.0], [0.0, 1e5], CLOCK)
+    assert np.array_equal(applied.demanded_pressures, bypassed.demanded_pressures)
 
 
 @pytest.mark.parametrize("name", recipe_names())

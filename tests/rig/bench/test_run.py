@@ -60,41 +60,30 @@ def test_the_record_has_every_channel_at_every_step(case, clock, pulled):
     assert np.diff(pulled["time"]) == pytest.approx(clock.step)
 
 
-def test_the_loadcells_share_the_clamping_force(pulled):
+def test_the_loadcells_share_the_clamping_force_and_do_not_err_together(pulled):
     cells = sum(pulled[f"loadcell_{k}"] for k in (1, 2, 3))
     assert cells == pytest.approx(pulled["clamping_force_1"])
     largest = pulled["caliper_force_1"].max()
     assert np.abs(cells - pulled["caliper_force_1"]).max() < 0.02 * largest
-
-
-def test_the_loadcells_do_not_err_together(pulled):
     at = np.flatnonzero(pulled["clamping_force_1"] > 3000.0)[::20]
     errors = [pulled[f"loadcell_{k}"][at] / pulled["caliper_force_1"][at] for k in (1, 2, 3)]
     assert abs(np.corrcoef(np.diff(errors[0]), np.diff(errors[1]))[0, 1]) < 0.3
 
 
-def test_the_line_follows_the_demand_and_the_valves_the_commands(pulled):
+def test_the_line_follows_the_demand_and_the_air_of_the_tanks_the_valves(pulled):
     time = pulled["time"]
     assert pulled["brake_line_pressure"][np.searchsorted(time, 2.9)] == pytest.approx(3e5, rel=0.01)
     vented = pulled["tank_pressure_2"][np.searchsorted(time, 4.2)]
     assert vented < 0.9 * pulled["tank_pressure_2"][np.searchsorted(time, 2.9)]
-
-
-def test_the_cold_air_of_a_vented_tank_warms_up_while_the_valve_holds(pulled):
-    time = pulled["time"]
     held = pulled["tank_pressure_2"][np.searchsorted(time, 4.3) : np.searchsorted(time, 4.45)]
     assert np.all(np.diff(held) > 0.0)
     assert np.ptp(held) < 5e3
-
-
-def test_module_1_keeps_more_pressure_while_it_is_vented(pulled):
-    """Its balls keep the air warm, and its piston gives back what it had taken."""
-    time = pulled["time"]
+    # Its balls keep the air warm, and its piston gives back what it had taken.
     at = np.searchsorted(time, 3.6)
     assert pulled["tank_pressure_1"][at] > pulled["tank_pressure_2"][at]
 
 
-def test_the_settings_differ_as_their_names_say(pulled):
+def test_the_settings_differ_as_their_names_say_and_the_modelled_air_is_nearer_to_module_1(pulled):
     """Without hysteresis force goes with pressure; with it, force stays while the pressure turns."""
     time = pulled["time"]
     turn = slice(np.searchsorted(time, 3.0), np.searchsorted(time, 3.2))
@@ -104,9 +93,6 @@ def test_the_settings_differ_as_their_names_say(pulled):
     assert not np.array_equal(force["none"], force["cylinder"])
     assert not np.array_equal(force["hysteresis"], force["full"])
     assert not np.array_equal(force["hysteresis"], force["thermal"])
-
-
-def test_the_modelled_air_is_nearer_to_module_1_than_the_tank_is(pulled):
     at = pulled["time"] > 1.0
 
     def largest_error(name):

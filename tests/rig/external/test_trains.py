@@ -102,14 +102,11 @@ def test_a_child_process_gives_the_bits_of_this_one(workers, train_of, library):
         assert [car.controller_version for car in stop.cars] == ["1.2", "", "1.2", "", "1.2"]
 
 
-def test_the_stop_of_each_car_has_a_name_of_its_own_that_every_car_decides(train_of):
+def test_the_stop_of_each_car_has_a_name_of_its_own_that_the_cars_and_its_program_decide(train_of):
     first, second = train_of(python(), python()), train_of(python(), "{brake: {command: 90 %}}", python())
     names = [config.case_sha256 for train in (first, second) for config in train.configs if config]
     assert len({*names}) == 4
-
-
-def test_another_program_of_another_car_is_another_stop_but_not_one_of_its_own(train_of):
-    """As for a car alone, whose stop keeps its name when its controller is changed."""
+    # As for a car alone, whose stop keeps its name when its controller is changed.
     Path("other.py").write_text(Path("bad.py").read_text("utf-8") + "\n", "utf-8")
     before = [config.case_sha256 for config in train_of(python(), python("raise", file="other.py")).configs]
     shutil.copy("bad.py", "other.py")

@@ -97,9 +97,11 @@ def test_a_fault_in_c_names_the_reason_and_the_cycle(workers, stop_of, library, 
     assert str(error.value).startswith(IN_C[fault])
 
 
-def test_a_controller_that_does_not_answer_is_ended(workers, stop_of):
+def test_a_controller_that_does_not_answer_is_ended_and_a_long_reason_is_shortened(workers, stop_of):
     with pytest.raises(ControllerError, match=r"^step did not return within 0\.5 s \(cycle 700\)$"):
         workers.run(stop_of("spin", limit="0.5 s"))
+    with pytest.raises(ControllerError, match=r"^.{100,3000}$"):
+        workers.run(stop_of("long"))
 
 
 def test_a_fault_touches_no_later_stop_and_leaves_no_process_behind(stop_of):
@@ -206,16 +208,15 @@ def test_libraries_that_are_none(workers, stop_of, library, folder):
             workers.run(stop_of(library=name))
 
 
-def test_a_file_that_changes_after_it_was_read_is_not_run(workers, stop_of, folder):
+def test_a_program_that_changes_after_it_was_read_or_while_it_is_loaded_is_not_run(
+    workers, stop_of, folder, library, monkeypatch
+):
     own = shutil.copy("bad.py", folder / "own.py")
     inputs = stop_of(**{"python": "own.py", "class": "Bad"})
     with own.open("a") as file:
         file.write("# changed\n")
     with pytest.raises(ControllerError, match=r"^own\.py has changed since the scenario was read$"):
         workers.run(inputs)
-
-
-def test_a_library_that_changes_while_it_is_loaded_is_not_run(stop_of, library, monkeypatch):
     path = library(name="libown.so")
     inputs = stop_of(library="libown.so")
     load = ctypes.CDLL
@@ -253,12 +254,6 @@ def test_a_fault_in_a_block_ends_its_own_stop_alone(workers, stop_of, library):
     for place in (1, 3, 7):
         own = run.measures[place].tobytes() + run.wheelset_measures[place].tobytes()
         assert own == bits(alone)
-
-
-def test_a_long_reason_is_shortened(workers, stop_of):
-    with pytest.raises(ControllerError) as error:
-        workers.run(stop_of("long"))
-    assert len(str(error.value)) < 3000
 
 
 def test_something_else_than_an_answer_ends_the_stop(stop_of, folder, monkeypatch):

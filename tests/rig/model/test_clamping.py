@@ -44,10 +44,12 @@ def test_module_with_a_caliper_gives_what_its_loadcells_read(rig, bench):
     assert seen["clamping_force"].max() > 1e4
 
 
-def test_module_without_a_caliper_gives_the_computed_force(rig, bench):
+def test_module_without_a_caliper_gives_the_computed_force_and_one_with_it_needs_no_model(rig, bench):
+    """The pressure of a caliper is that of the cylinder already."""
     braked = bench(rig.parameters(**EXACT)[0])
-    seen = clamped(braked.wheelsets[1], braked.p, braking())
-    np.testing.assert_array_equal(seen["clamping_force"], seen["computed_force"])
+    caliper, tank = (clamped(wheelset, braked.p, braking()) for wheelset in braked.wheelsets[:2])
+    np.testing.assert_allclose(caliper["compensated_pressure"], braking(), atol=1e-6)
+    np.testing.assert_array_equal(tank["clamping_force"], tank["computed_force"])
 
 
 def test_without_compensation_the_force_is_one_line_of_the_pressure(rig, bench):
@@ -89,13 +91,6 @@ def test_only_the_setting_thermal_takes_the_ratio_to_the_modelled_pressure(rig, 
     if setting == "thermal" and module == 1:
         expected = 0.97 * (expected + atmosphere) - atmosphere
     np.testing.assert_allclose(seen, expected, atol=1e-6)
-
-
-def test_a_caliper_needs_no_model_of_its_cylinder(rig, bench):
-    """Its pressure is that of the cylinder already."""
-    braked = bench(rig.parameters(**EXACT)[0])
-    seen = clamped(braked.wheelsets[0], braked.p, braking())
-    np.testing.assert_allclose(seen["compensated_pressure"], braking(), atol=1e-6)
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.25, 1.0])

@@ -50,15 +50,12 @@ def test_valve_moves_a_whole_delay_after_the_command(rig, bench, steps):
     np.testing.assert_array_equal(seen["fill"], 1.0 - expected)
 
 
-def test_valve_travels_for_its_travel_time(rig, bench):
+def test_valve_travels_for_its_travel_time_and_bypassed_ones_always_fill(rig, bench):
     parameters, rail = rig.parameters("brake.system.wsp_valve.travel_time=20 ms")
     seen = openings(bench(parameters), rail, [FILL] + [HOLD] * 20, 20)
     moving = (seen["fill"] > 0.0) & (seen["fill"] < 1.0)
     assert moving.sum() + 1 == pytest.approx(40, abs=1)
     assert not seen["vent"].any()
-
-
-def test_bypassed_valves_always_fill(rig, bench):
     parameters, rail = rig.parameters("rig.wsp=bypassed")
     seen = openings(bench(parameters), rail, [VENT] * 20, 20)
     assert np.all(seen["fill"] == 1.0)

@@ -8,8 +8,7 @@ import pytest
 
 from uictest.rig.model.friction_brake import follow_tanks, read_line_pressure, step_clamping
 from uictest.rig.model.pneumatics import step_air
-from uictest.rig.stops import compiled_rig
-from uictest.rig.train_stop import run_to_end
+from uictest.rig.train_stop import compiled_rig, run_to_end
 
 EXACT = {f"pressure_{error}": 0.0 for error in ("gain_error", "offset", "noise")} | {
     # A converter so fine that it does not show.

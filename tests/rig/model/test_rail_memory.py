@@ -64,7 +64,7 @@ def rolls(place):
 
 
 @pytest.mark.parametrize("speed", [2.0, 9.0, 33.0])
-def test_a_wheelset_meets_at_a_place_what_the_one_before_left_there(speed):
+def test_a_wheelset_meets_at_a_place_what_the_one_before_left_there_later_by_distance_over_speed(speed):
     """Only the first slides, between 10 m and 14 m. The others find its patch there, at any speed."""
     track = Track([patch(10.0, 14.0), rolls, rolls, rolls], 0.01 * speed)
     assert track.share[:, 0].max() == pytest.approx(1.0 - np.exp(-8000.0 / 5300.0), rel=0.01)
@@ -75,11 +75,6 @@ def test_a_wheelset_meets_at_a_place_what_the_one_before_left_there(speed):
         np.testing.assert_allclose(track.share[here, number], expected, atol=number * GRID)
         cleaned = track.share[:, number] > 0.4
         assert track.place[cleaned, number].min() == pytest.approx(10.4, abs=0.01 * speed + GRID)
-
-
-@pytest.mark.parametrize("speed", [2.0, 9.0, 33.0])
-def test_a_follower_comes_later_by_distance_over_speed(speed):
-    track = Track([patch(10.0, 14.0), rolls, rolls, rolls], 0.01 * speed)
     first = [np.flatnonzero(track.share[:, number] > 0.3)[0] for number in range(4)]
     np.testing.assert_allclose(np.subtract(first, first[0]), np.divide(BEHIND, 0.01 * speed), atol=1.0)
 

@@ -253,7 +253,7 @@ def _steady(rig):
     return p, float(deceleration), load
 
 
-def test_weight_transfer_is_that_of_statics(steady):
+def test_weight_transfer_is_that_of_statics_and_all_loads_are_the_weight(steady):
     """Moments of the inertia forces about the rail, for the car as a whole and for each bogie."""
     p, a, load = steady
     height = p.secondary_height
@@ -266,6 +266,7 @@ def test_weight_transfer_is_that_of_statics(steady):
     signs = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
     expected = 0.5 * signs @ [between_bogies, of_bogie]
     np.testing.assert_allclose(load, expected, rtol=2e-3, atol=1e-3 * of_bogie)
+    assert abs(load.sum()) < 1e-3 * np.abs(load).max()
 
 
 def test_trailing_wheelsets_of_the_bogies_carry_least(rig):
@@ -273,10 +274,6 @@ def test_trailing_wheelsets_of_the_bogies_carry_least(rig):
     braking = (trace["time"] > 5.0) & (trace["speed"] > 3.0)
     load = trace["wheel_load"][braking].mean(axis=0)
     assert set(np.argsort(load)[:2]) == {1, 3}
-
-
-def test_wheel_loads_together_are_the_weight(steady):
-    assert abs(steady[2].sum()) < 1e-3 * np.abs(steady[2]).max()
 
 
 def test_contact_grows_with_the_load_as_hertz_says_up_to_a_highest_load(rig, bench):

@@ -1,7 +1,9 @@
-"""Whole stops against closed forms, and what they must conserve."""
+"""Whole stops from their start: against closed forms, and what they must conserve."""
 
 import numpy as np
 import pytest
+
+from ..plain_numbers import step
 
 NO_RESISTANCE = {"resistance_constant": 0.0, "resistance_linear": 0.0, "resistance_quadratic": 0.0}
 EXACT_SENSORS = {"pressure_noise": 0.0, "loadcell_noise": 0.0, "pressure_offset": 0.0, "loadcell_offset": 0.0}
@@ -65,7 +67,7 @@ def test_standstill_lies_between_two_steps_where_the_speed_says(rig):
     assert measures.end_speed == 0.0
 
 
-def test_coasting_follows_the_running_resistance(rig):
+def test_a_train_without_a_brake_rolls_against_its_resistance_and_downhill_as_closed_forms_say(rig):
     """M v' = -(a + b v + c v^2) has a closed form: v falls along a tangent."""
     settings = {"commanded_pressure": 0.0, "cycles": 6000, **EXACT_SENSORS}
     p = rig.parameters(DRY, **settings)[0]
@@ -77,9 +79,6 @@ def test_coasting_follows_the_running_resistance(rig):
     expected = (root * np.tan(phase) - b) / (2.0 * c)
     assert expected[-1] < 0.95 * p.initial_speed
     np.testing.assert_allclose(trace["speed"], expected, rtol=2e-5)
-
-
-def test_train_rolls_downhill_as_on_an_inclined_plane(rig):
     settings = {"commanded_pressure": 0.0, "cycles": 1000, **NO_RESISTANCE, **EXACT_SENSORS}
     overrides = (DRY, "rail.gradient=-25 permille")
     p = rig.parameters(*overrides, **settings)[0]
@@ -117,11 +116,49 @@ def test_a_train_that_is_not_stopped_in_time_has_not_stopped(rig):
     assert np.isnan(measures.braking_distance)
 
 
-@pytest.mark.parametrize("friction", [0.04, 0.12, 0.3])
-def test_energy_and_air_are_conserved(rig, friction):
-    overrides = ("rail.condition=wet", f"rail.friction={friction}", "rail.gradient=10 permille")
-    measures = rig.stop(*overrides).measures
-    assert abs(measures.energy_residual) < 1e-9
+CLIMBING = ("rail.condition=wet", "rail.gradient=10 permille")
+SLIPPERY = ("rail.condition=wet", "rail.friction=0.08")
+FAST = (*SLIPPERY, DRY)
+CLEANING = "rail.cleaning={energy: 5300 J/m, recovered_friction: 0.28, reach: 0.5 m, carry_over: 0.5}"
+CURVES = ("rail.condition=wet-curves", "rail.friction=0.08")
+LAYER = ("rail.condition=leaf-layer",)
+BYPASSED = "rig.wsp=bypassed"
+MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW}"
+AGAIN = "brake.command=[{at: 0 s, value: 100 %}, {at: 5 s, value: 0 %}, {at: 9 s, value: 80 %}]"
+VARIED = "rail.variation={spread: 40 %, correlation_length: 10 m, left_right_correlation: 0.5}"
+RADII = [f"vehicle.wheelsets.{number}.wheel_radius={0.40 + 0.01 * number} m" for number in (1, 2, 3, 4)]
+RADII.append("rig.compensation=full")
+BALANCED = {
+    "very slippery": (*CLIMBING, "rail.friction=0.04"),
+    "slippery": (*CLIMBING, "rail.friction=0.12"),
+    "wet": (*CLIMBING, "rail.friction=0.3"),
+    "pads that fade": (DRY, "brake.pad=disc-pad", "rail.condition=wet", "rail.friction=0.09"),
+    "random rail": (*FAST, VARIED),
+    "slides": FAST,
+    "slides, cleaned": (*FAST, CLEANING),
+    "locks": (*FAST, BYPASSED),
+    "locks, cleaned": (*FAST, BYPASSED, CLEANING),
+    "curves": CURVES,
+    "curves, locks": (*CURVES, BYPASSED),
+    "layer": LAYER,
+    "layer, locks": (*LAYER, BYPASSED),
+    "motors": (MOTORS,),
+    "motors, bypassed": (MOTORS, BYPASSED),
+    "motors, slides": (*SLIPPERY, MOTORS),
+    "motors, locks": (*SLIPPERY, MOTORS, BYPASSED),
+    "applied again": (AGAIN,),
+    "applied again, slides": (AGAIN, "rail.condition=wet", "rail.friction=0.10"),
+    "radii": RADII,
+    "radii, slides": (*RADII, "rail.condition=wet", "rail.friction=0.09", "initial_speed=60 km/h"),
+}
+
+
+@pytest.mark.parametrize("kind", BALANCED)
+def test_every_stop_comes_to_rest_and_conserves_energy_and_air(rig, kind):
+    """Cleaning moves no energy: what the contacts lose is heat."""
+    measures = rig.stop(*BALANCED[kind]).measures
+    assert measures.stopped == 1.0
+    assert abs(measures.energy_residual) < (1e-8 if BALANCED[kind][0] in (*CURVES, *LAYER) else 1e-9)
     assert abs(measures.air_residual) < 1e-9
     assert abs(measures.air_energy_residual) < 1e-9
 
@@ -162,3 +199,51 @@ def test_measures_are_those_of_the_recording(rig):
     assert stop.measures.sliding_time == first
     expected = np.interp(first + np.arange(11), trace["time"], trace["speed"])
     np.testing.assert_allclose(stop.measures.speed_after_sliding, expected, rtol=1e-9)
+
+
+def test_without_a_brake_the_train_rolls_on_as_it_began(rig, bench):
+    """All parts are in equilibrium: nothing swings, nothing slides, no air flows."""
+    quiet = {"commanded_pressure": 0.0, "loadcell_offset": 0.0, "loadcell_noise": 0.0, **NO_RESISTANCE}
+    rolling = bench(rig.parameters(**quiet)[0])
+    for wheelset in rolling.wheelsets:
+        wheelset.friction = 0.3
+    for _ in range(200):
+        step(rolling.car, rolling.bogies, rolling.wheelsets, rolling.p)
+    v = rolling.p.initial_speed
+    for part in (rolling.car, *rolling.bogies, *rolling.wheelsets):
+        assert part.speed == pytest.approx(v, rel=1e-12)
+        assert part.position == pytest.approx(v * 0.1, rel=1e-12)
+    for frame in (rolling.car, *rolling.bogies):
+        np.testing.assert_allclose([frame.height, frame.pitch, frame.pitch_rate], 0.0, atol=1e-12)
+    for wheelset in rolling.wheelsets:
+        assert wheelset.wheel_radius * wheelset.rotation == pytest.approx(wheelset.speed, abs=1e-9)
+        assert wheelset.wheel_load == pytest.approx(rolling.p.static_wheel_load)
+    assert rolling.car.consumed_air == 0.0
+
+
+def test_places_of_wheelsets_and_bogies(rig, bench):
+    p = rig.parameters()[0]
+    started = bench(p)
+    ahead = [started.bogies[i // 2].ahead + started.wheelsets[i].ahead for i in range(4)]
+    assert ahead == sorted(ahead, reverse=True)
+    assert [ahead[0] - place for place in ahead] == pytest.approx([w.behind for w in started.wheelsets])
+    assert ahead[0] - ahead[3] == pytest.approx(2.0 * (p.half_pivot_distance + p.half_wheelbase))
+
+
+@pytest.mark.parametrize(
+    ("topology", "calipers"), [("one-caliper", [1, 0, 0, 0]), ("four-caliper", [1, 1, 1, 1])]
+)
+def test_topology_says_which_modules_have_a_caliper(rig, bench, topology, calipers):
+    started = bench(rig.parameters(f"rig.topology={topology}")[0])
+    assert [wheelset.has_caliper for wheelset in started.wheelsets] == calipers
+
+
+def test_tanks_hold_air_of_the_pressure_and_temperature_around_them(rig, bench):
+    started = bench(rig.parameters("brake.system.air.temperature=-10 degC")[0])
+    p = started.p
+    assert [started.car.line_temperature, *(w.air_temperature for w in started.wheelsets)] == [263.15] * 5
+    assert {started.car.line_coldness, *(w.air_coldness for w in started.wheelsets)} == {293.15 / 263.15}
+    masses = [wheelset.air_mass for wheelset in started.wheelsets]
+    volumes = [p.caliper_tank_volume, *3 * [p.tank_volume]]
+    density = p.atmospheric_pressure / (p.gas_constant * p.air_temperature)
+    assert masses == pytest.approx([density * volume for volume in volumes])

@@ -8,12 +8,6 @@ from uictest.rig.model.trace import SLIDE_SPEED
 SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
 
 
-def test_a_row_holds_every_channel(rig):
-    columns = rig.columns(*SLIDING, every=20)
-    assert len(columns) == 40
-    assert all(np.isfinite(column).all() for column in columns.values())
-
-
 @pytest.mark.parametrize("every", [1, 7, 20, 200])
 def test_samples_are_evenly_spaced_from_the_brake_command_on(rig, every):
     """Each time is a multiple of the step and never a sum."""
@@ -23,16 +17,14 @@ def test_samples_are_evenly_spaced_from_the_brake_command_on(rig, every):
     assert outcome.car.time - times[-1] < every * 5e-4
 
 
-def test_channels_agree_with_each_other(rig):
+def test_every_channel_has_numbers_that_agree_with_the_others(rig):
     trace = rig.columns(*SLIDING, every=20)
-    p = rig.parameters(*SLIDING)[0]
+    assert len(trace) == 40
+    assert all(np.isfinite(column).all() for column in trace.values())
     moving = trace["speed"] > SLIDE_SPEED
     slide = 1.0 - trace["wheel_speed"][moving] / trace["speed"][moving, None]
     np.testing.assert_allclose(trace["slide"][moving], slide, atol=1e-12)
     assert not np.any(trace["slide"][~moving])
-    faces = p.calipers_per_wheelset * p.pads_per_caliper
-    torque = faces * p.reference_pad_friction * p.disc_radius * trace["clamping_force"]
-    np.testing.assert_allclose(trace["brake_torque"][1:], torque[1:], rtol=1e-12)
     assert np.all(trace["adhesion"] <= trace["friction"] + 1e-9)
     assert set(np.unique(trace["valve_command"])) <= {0.0, 1.0, 2.0}
     assert np.all(np.diff(trace["distance"][moving]) > 0.0)
@@ -68,18 +60,12 @@ def test_each_controller_records_its_own_estimate(rig):
         )
 
 
-def test_naive_estimate_sinks_with_the_wheels_on_a_very_slippery_rail(rig):
+def test_on_a_very_slippery_rail_the_naive_estimate_sinks_with_the_wheels_and_the_other_recovers(rig):
     """The slip-band controller loses the train's speed and its wheels lock; it is there to show that."""
-    slippery = ("rail.condition=wet", "rail.friction=0.03", "controller=slip-band")
-    trace = rig.columns(*slippery, every=20)
+    slippery, naive = ("rail.condition=wet", "rail.friction=0.03"), "controller=slip-band"
+    trace = rig.columns(*slippery, naive, every=20)
     after = np.searchsorted(trace["time"], 15.0)
     assert trace["reference_speed"][after] < 0.2 * trace["speed"][after]
     assert np.all(trace["wheel_speed"][after] == 0.0)
-
-
-def test_threshold_controller_keeps_the_wheels_turning_on_a_very_slippery_rail(rig):
-    """It loses sight of the speed as well, but finds it again."""
-    slippery = ("rail.condition=wet", "rail.friction=0.03")
-    threshold = rig.stop(*slippery, every=20).wheelset_measures.longest_lock
-    naive = rig.stop(*slippery, "controller=slip-band", every=20).wheelset_measures.longest_lock
-    assert threshold.max() < 0.1 * naive.min()
+    locks = [rig.stop(*slippery, *own, every=20).wheelset_measures.longest_lock for own in ((), (naive,))]
+    assert locks[0].max() < 0.1 * locks[1].min()

@@ -24,7 +24,7 @@ def child(write, more="", extends="parent.yaml"):
     )
 
 
-def test_maps_merge_lists_replace_and_the_name_is_the_childs(write):
+def test_maps_merge_lists_replace_null_takes_back_and_the_name_is_the_childs(write):
     cases = child(write, "tags: [c]\nbrake: {command: 80 %}\nmatrix: {seed: [7]}\n")
     scenario = cases[0].scenario
     assert [case.id for case in cases] == ["child[seed=7]"]
@@ -32,9 +32,6 @@ def test_maps_merge_lists_replace_and_the_name_is_the_childs(write):
     assert (scenario.brake.command, scenario.brake.position) == (0.8, "P")
     assert scenario.rail.friction == 0.2
     assert list(cases[0].inputs)[:2] == ["set/child.yaml", "set/parent.yaml"]
-
-
-def test_null_takes_back_what_the_parent_says(write):
     cases = child(write, "matrix: null\nrail: {friction: null}\n")
     assert [case.id for case in cases] == ["child"]
     assert cases[0].scenario.rail.friction is None
@@ -66,12 +63,17 @@ def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write):
     assert (given.condition.name, given.friction) == ("dry", 0.2)
 
 
-def test_paths_start_at_the_file_that_says_them(write):
+def test_paths_start_at_the_file_that_says_them_and_a_missing_parent_names_the_nearest(write):
     write("cars/heavy.yaml", "schema: uictest/vehicle/1\nextends: intercity-180\nbody: {mass: 40 t}\n")
     write("base/base.yaml", PARENT + "vehicle: ../cars/heavy.yaml\n")
     cases = child(write, extends="../base/base.yaml")
     assert cases[0].scenario.vehicle.body.mass == 40_000.0
     assert "cars/heavy.yaml" in cases[0].inputs
+    with pytest.raises(ScenarioErrors) as caught:
+        child(write, extends="parnet.yaml")
+    (diagnostic,) = caught.value.diagnostics
+    assert (diagnostic.line, diagnostic.column, diagnostic.key) == (3, 10, "extends")
+    assert "'parent.yaml'" in diagnostic.hint
 
 
 @pytest.mark.parametrize("loop", [["a"], ["a", "b"], ["a", "b", "c"]])
@@ -85,29 +87,15 @@ def test_a_circle_is_told_at_the_reference_that_closes_it(write, loop):
     assert "circular 'extends': a.yaml -> " in diagnostic.message
 
 
-def test_an_error_in_a_parent_points_into_the_parent(write):
+def test_an_error_in_a_parent_points_into_it_and_a_parent_is_a_scenario_of_so_many_generations(write):
     write("base.yaml", PARENT.replace("120 km/h", "fast"))
     with pytest.raises(ScenarioErrors) as caught:
         child(write, extends="../base.yaml")
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.file, diagnostic.line, diagnostic.column) == ("base.yaml", 3, 16)
-
-
-def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write):
-    with pytest.raises(ScenarioErrors) as caught:
-        child(write, extends="parnet.yaml")
-    (diagnostic,) = caught.value.diagnostics
-    assert (diagnostic.line, diagnostic.column, diagnostic.key) == (3, 10, "extends")
-    assert "'parent.yaml'" in diagnostic.hint
-
-
-def test_a_parent_must_be_a_scenario(write):
     write("car.yaml", "schema: uictest/vehicle/1\nname: car\n")
     with pytest.raises(ScenarioErrors, match="expected uictest/scenario/1, found 'uictest/vehicle/1'"):
         child(write, extends="../car.yaml")
-
-
-def test_generations_are_bounded(write):
     for number in range(20):
         write(f"{number}.yaml", f"schema: uictest/scenario/1\nname: g\nextends: {number + 1}.yaml\n")
     with pytest.raises(ScenarioErrors, match="more than 16 generations"):

@@ -1,4 +1,4 @@
-"""Places of keys and values with either implementation of the parser, scalars of YAML 1.2, merged trees."""
+"""Places of keys and values with either parser, scalars of YAML 1.2, merged trees, and messages."""
 
 import math
 from pathlib import Path
@@ -7,8 +7,17 @@ import pytest
 import yaml
 from hypothesis import given, strategies as st
 
-from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.scenario.yaml.diagnostics import Document
+from uictest.plans.scenario.yaml.diagnostics import (
+    Document,
+    Location,
+    ScenarioErrors,
+    diagnose,
+    in_reading_order,
+    nearest,
+    quoted,
+    suggestion,
+    visible,
+)
 from uictest.plans.scenario.yaml.tree import Map, Scalar, as_written, merge, parse, plain, scalar_value
 
 LOADERS = [yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)]
@@ -45,11 +54,8 @@ def test_quoted_numbers_and_blocks_are_texts(loader, monkeypatch):
     }
 
 
-def test_a_byte_order_mark_is_no_character_of_the_first_key():
+def test_a_byte_order_mark_is_no_character_and_a_piece_keeps_its_place_in_the_whole():
     assert plain(tree("\ufeffname: x\n")) == {"name": "x"}
-
-
-def test_a_piece_keeps_its_place_in_the_whole():
     document = Document("--set", Path(), "rail.friction=0.1,[")
     with pytest.raises(ScenarioErrors) as caught:
         parse(document, 1, 19, "[")
@@ -104,25 +110,53 @@ def test_core_schema(text, value):
     assert type(scalar_value(text)) is type(value)
 
 
-def test_not_a_number_is_a_number():
+def test_numbers_that_are_none_or_too_long_are_numbers():
     assert math.isnan(float(str(scalar_value(".nan"))))
-
-
-def test_thousands_of_digits_are_no_integer():
     assert scalar_value("9" * 10_000) == math.inf
 
 
-def test_maps_merge_and_lists_replace():
+def test_trees_merge_map_by_map_and_are_written_as_one_line():
     merged = merge(tree("{a: {b: 1, c: 2}, d: [1, 2], e: 1}"), tree("{a: {c: 3}, d: [4], f: 5}"))
     assert plain(merged) == {"a": {"b": 1, "c": 3}, "d": (4,), "e": 1, "f": 5}
-
-
-def test_a_changed_number_does_not_keep_the_source_of_the_old_one():
     merged = merge(tree("{mass: {value: 30 t, source: maker}}"), tree("{mass: 31 t}"))
     marked = merge(tree("{mass: {value: 30 t, source: maker}}"), tree("{mass: {value: 31 t}}"))
     assert plain(merged) == {"mass": "31 t"}
     assert plain(marked) == {"mass": {"value": "31 t"}}
-
-
-def test_a_node_is_written_as_one_line():
     assert as_written(tree("a:\n  - 0.10\n  - {b: 5 bar}\n")) == "{a: [0.10, {b: 5 bar}]}"
+
+
+def place(text, line, column, display="a.yaml"):
+    return Location(Document(display, Path(), text), line, column)
+
+
+def test_a_message_shows_place_line_caret_and_hint():
+    diagnostic = diagnose(place("x\nspeed: 120\n", 2, 8), "'120' has no unit", "speed", "write 120 km/h")
+    assert str(diagnostic) == (
+        "a.yaml:2:8: speed: '120' has no unit\n    2 | speed: 120\n      |        ^\n      = write 120 km/h"
+    )
+    for line, column in (("a\t\x1b[2J b: 1", 8), ("\u65e5\u672c b: 1", 4), ("x" * 500 + "b", 501)):
+        excerpt, caret = diagnose(place(line, 1, column), "wrong").excerpt.split("\n")
+        wide = sum(char > "\u2000" for char in excerpt)
+        assert excerpt[len(caret) - 1 - wide] == "b"
+
+
+def test_each_error_is_told_once_down_each_file_in_turn():
+    diagnostic = diagnose(place("a", 1, 1), "wrong")
+    assert ScenarioErrors([diagnostic, diagnostic]).diagnostics == (diagnostic,)
+    second, first = diagnose(place("a\nb", 2, 1), "x"), diagnose(place("a\nb", 1, 1), "y")
+    other = diagnose(place("a", 1, 1, "b.yaml"), "z")
+    assert in_reading_order([second, other, first]) == [first, second, other]
+
+
+def test_escapes_name_the_character_also_in_the_name_of_a_file():
+    assert visible("a\x07\u202eb\U000e0001") == "a\\x07\\u202eb\\U000e0001"
+    assert quoted("x" * 100) == "'" + "x" * 57 + "...'"
+    assert str(diagnose(place("", 1, 1, "\x1b[31m\u202e.yaml"), "wrong")).startswith(
+        "\\x1b[31m\\u202e.yaml:1:1:"
+    )
+
+
+def test_the_nearest_name_is_found_in_any_case_of_letters():
+    assert nearest("Intercity-108", ["crh380a", "intercity-180"]) == "intercity-180"
+    assert nearest("zzz", ["crh380a"]) is None
+    assert suggestion("zzz", ["b", "a"]) == "accepted: a, b"

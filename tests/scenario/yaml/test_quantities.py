@@ -1,9 +1,10 @@
-"""Quantities: exact factors, nothing guessed, the text kept; fields of them; decimals with a unit."""
+"""Quantities: exact factors, nothing guessed, the text kept; fields and models of them; decimals."""
 
 import copy
 import math
 import pickle
 from decimal import Decimal
+from functools import cached_property
 from typing import Annotated
 
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import given, strategies as st
 from pydantic import BaseModel, ValidationError
 
 from uictest.core.units import KINDS
+from uictest.plans.scenario.yaml import Model
 from uictest.plans.scenario.yaml.fields import of_kind
 from uictest.plans.scenario.yaml.quantities import (
     DecimalQuantity,
@@ -121,13 +123,6 @@ def test_the_hint_says_what_to_write(text, kind, hint):
     assert caught.value.hint.startswith(hint)
 
 
-def test_copies_keep_text_unit_and_source():
-    quantity = parse_quantity("4 bar", "pressure", "maker")
-    for twin in (copy.copy(quantity), copy.deepcopy(quantity)):
-        assert isinstance(twin, Quantity)
-        assert (twin, twin.text, twin.unit, twin.source) == (4e5, "4 bar", "Pa", "maker")
-
-
 class Sample(BaseModel):
     pressure: Annotated[Quantity, of_kind("pressure", "> 0 bar .. 8 bar")]
 
@@ -138,15 +133,23 @@ def message(value):
     return caught.value.errors()[0]["msg"]
 
 
-def test_bounds_are_told_as_written():
+def test_bounds_are_told_as_written_and_another_kind_is_refused():
     assert message("0 bar") == "0 bar is out of range: it must be above 0 bar"
     assert message("900 kPa") == "900 kPa is out of range: it must be at most 8 bar"
     assert Sample.model_validate({"pressure": "800 kPa"}).pressure == 8e5
+    assert message(Quantity(3.0, "3 m", "m")) == "'3 m' is not a pressure"
 
 
-def test_a_value_with_its_source_keeps_it():
+def test_a_value_with_its_source_is_written_out_and_read_back_and_copied_with_it():
     sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
     assert (sample.pressure, sample.pressure.source) == (3e5, "maker")
+    sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
+    again = Sample.model_validate(sample.model_dump())
+    assert (again.pressure, again.pressure.text, again.pressure.source) == (3e5, "3 bar", "maker")
+    quantity = parse_quantity("4 bar", "pressure", "maker")
+    for twin in (copy.copy(quantity), copy.deepcopy(quantity)):
+        assert isinstance(twin, Quantity)
+        assert (twin, twin.text, twin.unit, twin.source) == (4e5, "4 bar", "Pa", "maker")
 
 
 @pytest.mark.parametrize(
@@ -168,15 +171,8 @@ def test_a_range_states_its_prior_and_keeps_it_through_copies_and_files(prior):
     assert pickle.loads(pickle.dumps(sample.pressure)).prior == prior
 
 
-def test_a_range_without_a_prior_is_uniform():
+def test_a_range_without_a_prior_is_uniform_and_one_that_it_cannot_have_is_refused():
     assert Sample.model_validate({"pressure": RANGED}).pressure.prior == "uniform"
-
-
-class Temperature(BaseModel):
-    temperature: Annotated[Quantity, of_kind("temperature", "-50 degC .. 100 degC")]
-
-
-def test_a_prior_that_a_range_cannot_have_is_refused():
     assert message({**RANGED, "prior": "normal"}) == "unknown prior 'normal'"
     assert message({**RANGED, "prior": ["uniform"]}).startswith("unknown prior")
     assert message({"value": "3 bar", "source": "maker", "prior": "uniform"}) == "a prior without a range"
@@ -186,35 +182,26 @@ def test_a_prior_that_a_range_cannot_have_is_refused():
         Temperature.model_validate({"temperature": frost})
 
 
-def test_a_quantity_of_another_kind_is_refused():
-    assert message(Quantity(3.0, "3 m", "m")) == "'3 m' is not a pressure"
+class Temperature(BaseModel):
+    temperature: Annotated[Quantity, of_kind("temperature", "-50 degC .. 100 degC")]
 
 
-def test_a_model_written_out_reads_back():
-    sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
-    again = Sample.model_validate(sample.model_dump())
-    assert (again.pressure, again.pressure.text, again.pressure.source) == (3e5, "3 bar", "maker")
-
-
-def test_number_and_unit():
+def test_numbers_with_units_are_decimal_and_steps_reach_the_last_one_where_they_land_on_it():
     assert parse_decimal_quantity(" 1.1e-8 m3/(s  Pa) ") == DecimalQuantity(Decimal("1.1e-8"), "m3/(s Pa)")
     assert str(parse_decimal_quantity("1.1e-8 m3/(s Pa)")) == "0.000000011 m3/(s Pa)"
     assert str(parse_decimal_quantity("0.10")) == "0.10"
-
-
-@pytest.mark.parametrize("text", ["", "km/h", "nan", "1..2", "--1"])
-def test_what_is_no_amount(text):
-    with pytest.raises(ValueError, match="is not a number with its unit"):
-        parse_decimal_quantity(text)
-
-
-def test_a_step_reaches_the_last_number_where_it_lands_on_it():
     assert [str(n) for n in spaced_by_step(Decimal("0.1"), Decimal("0.3"), Decimal("0.1"))] == [
         "0.1",
         "0.2",
         "0.3",
     ]
     assert [str(n) for n in spaced_by_step(Decimal(3), Decimal(0), Decimal(-2))] == ["3", "1"]
+
+
+@pytest.mark.parametrize("text", ["", "km/h", "nan", "1..2", "--1"])
+def test_what_is_no_amount(text):
+    with pytest.raises(ValueError, match="is not a number with its unit"):
+        parse_decimal_quantity(text)
 
 
 @given(st.integers(-50, 50), st.integers(-50, 50), st.integers(-7, 7))
@@ -239,3 +226,27 @@ def test_a_computed_number_is_written_without_an_exponent(number):
     text = f"{rounded_decimal(number):f}"
     assert "e" not in text.lower()
     assert float(text) == pytest.approx(number, rel=1e-9)
+
+
+class Counted(Model):
+    number: int
+
+    @cached_property
+    def doubled(self):
+        return [2 * self.number]
+
+
+@pytest.mark.parametrize("deep", [False, True])
+def test_a_cached_property_of_a_copy_is_that_of_its_own_values(deep):
+    original = Counted(number=1)
+    assert original.doubled == [2]
+    assert original.model_copy(update={"number": 3}, deep=deep).doubled == [6]
+    assert original.doubled == [2]
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, Counted.model_copy])
+def test_a_copy_is_equal_whether_or_not_something_was_worked_out(copied):
+    original = Counted(number=1)
+    assert original.doubled == [2]
+    assert copied(original) == original == Counted(number=1)
+    assert copied(original).doubled == [2]

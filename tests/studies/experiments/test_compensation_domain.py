@@ -22,11 +22,9 @@ def replays(stop_runner):
 
 def test_the_papers_own_method_has_the_papers_band_and_ours_has_one_of_ours():
     banded = {key: each.band for key, each in QUANTITIES.items() if each.band is not None}
+    papers = ("median_full", "worst_full", "median_cylinder", "worst_cylinder")
     assert {key for key, band in banded.items() if isinstance(band, SourceBand)} == {
-        *(
-            f"pressure_error_{each}"
-            for each in ("median_full", "worst_full", "median_cylinder", "worst_cylinder")
-        ),
+        *(f"pressure_error_{each}" for each in papers),
         *("force_error_median_full", "force_error_worst_full"),
     }
     assert {key: band.upper for key, band in banded.items() if isinstance(band, OwnBand)} == {
@@ -36,13 +34,10 @@ def test_the_papers_own_method_has_the_papers_band_and_ours_has_one_of_ours():
     }
 
 
-def test_where_it_was_not_trained_our_compensation_keeps_the_bounds(replays):
+def test_our_compensation_keeps_the_bounds_and_hysteresis_changes_the_force_alone(replays):
     errors = [each.errors["thermal"] for each in replays]
     assert max(each.pressure_error for each in errors) < 2.0
     assert max(each.force_error for each in errors) < 8.0
-
-
-def test_hysteresis_does_not_change_the_pressure_but_the_force(replays):
     for each in replays:
         assert each.errors["hysteresis"].pressure_error == each.errors["none"].pressure_error
         assert each.errors["hysteresis"].force_error < each.errors["none"].force_error
@@ -54,21 +49,13 @@ def test_every_replay_has_a_row_for_every_setting(stop_runner, monkeypatch):
     table = findings.tables["errors"]
     assert table["position"] == ["R"] * 5 + ["emergency"] * 5
     assert table["setting"] == [*COMPENSATION_SETTINGS] * 2
-    worst = max(
-        error
-        for error, setting in zip(table["pressure_error_percent"], table["setting"], strict=True)
-        if setting == "full"
-    )
+    columns = ("pressure_error_percent", "setting", "position", "vents")
+    rows = list(zip(*(table[key] for key in columns), strict=True))
+    worst = max(error for error, setting, *_ in rows if setting == "full")
     assert findings.values["pressure_error_worst_full"].value == worst
     # None of these replays is in position P.
     assert math.isnan(findings.values["pressure_error_venting_thermal_p"].value)
-    errors = [
-        error
-        for error, setting, position, vents in zip(
-            *(table[key] for key in ("pressure_error_percent", "setting", "position", "vents")), strict=True
-        )
-        if (setting, position, vents) == ("thermal", "R", True)
-    ]
+    errors = [error for error, *of in rows if of == ["thermal", "R", True]]
     assert [findings.values["pressure_error_venting_thermal_r"].value] == errors
 
 

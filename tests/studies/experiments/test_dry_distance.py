@@ -29,9 +29,8 @@ def test_no_wheelset_slides_in_any_stop(stop_runner):
 
 
 def test_the_worst_stop_keeps_its_sign():
-    nothing = None
-    made_up = [DryStop(nothing, "full", distance, 100.0) for distance in (100.1, 99.0)]
-    worst = worst_stop([*made_up, DryStop(nothing, "none", 90.0, 100.0)], "full")
+    made_up = [("full", 100.1), ("full", 99.0), ("none", 90.0)]
+    worst = worst_stop([DryStop(None, rig, distance, 100.0) for rig, distance in made_up], "full")
     assert worst.difference == pytest.approx(-1.0)
 
 

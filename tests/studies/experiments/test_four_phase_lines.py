@@ -23,9 +23,6 @@ BC = FittedLine(0.042, -1900.0, slope_confidence=3e-5, intercept_confidence=30.0
 def test_lines_are_apart_by_slope_or_intercept(slope, intercept, ratio):
     wsp = FittedLine(slope, intercept, slope_confidence=4e-5, intercept_confidence=40.0)
     assert apart(hysteresis(bc_squeezing=BC, wsp_squeezing=wsp), "squeezing") == pytest.approx(ratio)
-
-
-def test_a_missing_line_is_not_apart_from_another():
     assert math.isnan(apart(hysteresis(bc_squeezing=BC), "squeezing"))
 
 
@@ -48,9 +45,7 @@ def test_two_lines_are_those_of_the_bc():
 
 def test_four_lines_and_two_differ_only_where_the_wsp_acts(stop_runner):
     slippery, good = 0.11, 0.3
-    conditions = JudgedConditions(
-        frictions=(slippery, good), positions=("R",), wheelsets=(1,), seeds=(31, 32)
-    )
+    conditions = JudgedConditions((slippery, good), ("R",), wheelsets=(1,), seeds=(31, 32))
     errors = held_out_errors(stop_runner, conditions)
     assert len(errors["four"]) == len(errors["two"]) == 2
     assert errors["four"][0] != errors["two"][0]

@@ -14,20 +14,14 @@ def loop(level, **slopes):
     return Loop(level, nothing, HysteresisResult(lines, lines, FittedLine(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
 
 
-def test_the_phase_that_changes_most_decides():
+def test_the_phase_that_changes_most_decides_and_what_is_not_common_does_not_count():
     loops = [
         loop("80 %", bc_squeezing=4.0, bc_releasing=5.0),
         loop("100 %", bc_squeezing=4.1, bc_releasing=5.0),
     ]
     assert slope_spread(loops) == pytest.approx(0.1 / 4.05)
-
-
-def test_a_phase_of_a_single_stop_is_compared_with_nothing():
     loops = [loop("80 %", bc_squeezing=4.0), loop("100 %", bc_squeezing=4.0, wsp_squeezing=9.0)]
     assert slope_spread(loops) == 0.0
-
-
-def test_nothing_in_common_is_no_agreement():
     assert math.isnan(slope_spread([loop("80 %", bc_squeezing=4.0), loop("100 %", bc_releasing=4.0)]))
 
 

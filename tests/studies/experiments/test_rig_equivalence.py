@@ -16,23 +16,15 @@ def point(stop):
     return Point("0.146", "100 %", nothing, {**stops, FOUR_CALIPER: four})
 
 
-def test_a_rig_against_itself_shows_its_scatter(point):
+def test_a_rig_against_itself_shows_its_scatter_and_others_their_differences(point):
     found = list(differences_at(point))
     for rig in ("full", FOUR_CALIPER):
         reading = overall(found, "braking_distance", rig)
         assert (reading.low, reading.value, reading.high) == (-1.0, 0.0, 1.0)
-
-
-def test_differences_are_computed_for_the_train_and_for_each_wheelset(point):
-    found = list(differences_at(point))
     assert overall(found, "braking_distance", "none").value == -5.0
-    vents = {
-        each.wheelset: each for each in found if (each.measure, each.rig) == ("valve_actuations", "none")
-    }
+    of_none = [each for each in found if (each.measure, each.rig) == ("valve_actuations", "none")]
+    vents = {each.wheelset: each for each in of_none}
     assert [list(vents[n].values) for n in (1, 2, 3, 4)] == [[0.0] * 3, [10.0] * 3, [9.0] * 3, [11.0] * 3]
     assert {each.wheelset for each in found if each.measure == "braking_time"} == {TRAIN}
     assert {each.rig for each in found} == set(RIGS)
-
-
-def test_actuations_are_those_of_the_modules_that_may_lack_a_caliper(point):
     assert mean_counts(point.stops["none"]).tolist() == [21.0] * 3

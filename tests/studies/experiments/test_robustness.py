@@ -28,10 +28,7 @@ def sweep(stop):
 )
 def test_the_order_of_caliper_full_and_none(caliper, full, none, expected):
     assert _in_order({"four-caliper": caliper, "full": full, "none": none}) is expected
-
-
-def test_a_caliper_that_never_cycles_gives_no_ratio():
-    assert math.isnan(_ratio(0.0, 0.0))
+    assert math.isnan(_ratio(0.0, 0.0))  # of a caliper that never cycles
 
 
 def test_a_swept_friction_is_judged_stop_by_stop(sweep):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from studies.field.assumptions import DRY, Assumptions
-from studies.field.field_rig import FieldRig, field_stop
+from studies.field.field_rig import field_stop
 from uictest import rig
 
 SPEED = 80.0 / 3.6
@@ -13,14 +13,15 @@ DRY_STOP = Assumptions("constant", DRY, 0.0, "ep-disc", 0.8)
 SLIDING = Assumptions("dry first", 0.15, 95.0, "ep-disc", 0.8)
 
 
-@pytest.fixture(scope="session")
-def field_rig(stop_runner):
-    return FieldRig(stop_runner)
+@pytest.fixture
+def run(field_rig):
+    """Return time and distance of the dry stop with some assumptions changed."""
 
+    def changed(**changes):
+        figures = field_rig.stops([replace(DRY_STOP, **changes)])[0].figures
+        return figures["braking_time"], figures["braking_distance"]
 
-def _run(field_rig, assumptions):
-    figures = field_rig.stops([assumptions])[0].figures
-    return figures["braking_time"], figures["braking_distance"]
+    return changed
 
 
 def test_the_library_brake_on_a_constant_rail_is_the_slide_test_of_the_studies(field_rig, stop_runner):
@@ -35,26 +36,22 @@ def test_nothing_slides_on_dry_track_and_stops_behind_it_do(field_rig):
     assert min(sliding.actuations) > 5
 
 
-def test_a_lead_within_the_dead_time_only_moves_the_clock(field_rig):
+def test_a_lead_within_the_dead_time_only_moves_the_clock(run):
     """Nothing but the running resistance acts before the pressure rises."""
-    (time, distance), (early, shorter) = (
-        _run(field_rig, replace(DRY_STOP, lead=lead)) for lead in (0.0, 0.08)
-    )
+    (time, distance), (early, shorter) = (run(lead=lead) for lead in (0.0, 0.08))
     assert time - early == pytest.approx(0.08, abs=0.002)
     assert distance - shorter == pytest.approx(0.08 * SPEED, abs=0.05)
 
 
-def test_after_a_long_lead_only_braking_at_full_force_is_left(field_rig):
+def test_after_a_long_lead_only_braking_at_full_force_is_left(run):
     """Of an even deceleration, distance is half of speed times time."""
-    time, distance = _run(field_rig, replace(DRY_STOP, lead=3.0))
+    time, distance = run(lead=3.0)
     assert distance == pytest.approx(0.5 * SPEED * time, rel=0.01)
 
 
-def test_a_slower_build_up_costs_half_its_time_on_dry_track(field_rig):
+def test_a_slower_build_up_costs_half_its_time_on_dry_track(run):
     """The force rises linearly: the stop is as long as if half of the build-up were dead time."""
-    (time, distance), (later, longer) = (
-        _run(field_rig, replace(DRY_STOP, fill_time=fill)) for fill in (0.8, 4.0)
-    )
+    (time, distance), (later, longer) = (run(fill_time=fill) for fill in (0.8, 4.0))
     assert later - time == pytest.approx(1.6, rel=0.1)
     assert longer - distance == pytest.approx(1.6 * SPEED, rel=0.1)
 
@@ -79,10 +76,8 @@ def test_cleaning_shortens_the_stop_and_spares_the_valves(field_rig):
     assert sum(with_cleaning.actuations) < sum(without.actuations)
 
 
-def test_the_distributor_has_the_longer_dead_time(field_rig):
-    ep_disc, distributor = (
-        _run(field_rig, replace(DRY_STOP, brake=brake)) for brake in ("ep-disc", "distributor")
-    )
+def test_the_distributor_has_the_longer_dead_time(run):
+    ep_disc, distributor = (run(brake=brake) for brake in ("ep-disc", "distributor"))
     assert distributor[0] - ep_disc[0] == pytest.approx(0.3, abs=0.02)
 
 
@@ -90,14 +85,12 @@ def test_stops_in_lanes_have_the_bits_of_stops_alone(field_rig, stop_runner):
     """Rails with one point and with several, side by side."""
     step = "{interpolation: steps, points: [{position: 0 m, friction: 0.3}, {position: 90 m, friction: 0.1}]}"
     cases = [
-        *stop_runner.cases("slide-80", {"rail.friction": [0.14, 0.17]}),
-        *stop_runner.cases("slide-80", {"rail.friction": step}),
+        case
+        for rails in ([0.14, 0.17], step)
+        for case in stop_runner.cases("slide-80", {"rail.friction": rails})
     ]
+    assert field_rig.in_lanes([]) == []
     for case, stop in zip(cases, field_rig.in_lanes(cases), strict=True):
         alone = rig.simulate(case)
         assert stop.measures.tobytes() == alone.measures.tobytes()
         assert stop.wheelset_measures.tobytes() == alone.wheelset_measures.tobytes()
-
-
-def test_no_stops_in_lanes_are_none(field_rig):
-    assert field_rig.in_lanes([]) == []

@@ -5,7 +5,6 @@ import pytest
 
 from studies.field import assumptions as module
 from studies.field.assumptions import CARRY_OVERS, FAMILIES, REAL_TRAIN, SHAPES, Assumptions, FieldStop
-from studies.field.field_rig import FieldRig
 from studies.field.search import (
     VARIATIONS,
     Point,
@@ -25,26 +24,18 @@ PLAIN = Assumptions("constant", 0.17, 0.0, "ep-disc", 0.8)
 BY_NAME = {family.name: family for family in FAMILIES}
 
 
-@pytest.fixture(scope="session")
-def field_rig(stop_runner):
-    return FieldRig(stop_runner)
-
-
-def test_families_pair_every_brake_with_both_rails():
+def test_families_pair_every_brake_with_both_rails_and_a_free_build_up_with_the_library_s(field_rig):
     brakes = {"ep-disc", "distributor", "build-up-free"}
     assert BY_NAME.keys() >= brakes | {f"{brake}-cleaned" for brake in brakes}
     assert all(family.cleans == family.name.endswith("-cleaned") for family in FAMILIES)
     assert all(family.cleans == ("cleaning_energy" in family.ranges) for family in FAMILIES)
-
-
-def test_a_free_build_up_reaches_from_one_brake_of_the_library_past_the_other(field_rig):
     build_up = BY_NAME["build-up-free"].ranges["fill_time"]
     assert build_up.low == field_rig.build_up("ep-disc")
     assert build_up.low < field_rig.build_up("distributor") < build_up.high
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_assumptions_fill_the_ranges_of_their_family_evenly(family, field_rig):
+def test_assumptions_fill_the_ranges_of_their_family_evenly_and_the_rest_is_the_library_s(family, field_rig):
     assumed = list(evenly_spread(family, field_rig))
     assert len(set(assumed)) == len(assumed) == 2**family.evenly
     shapes = Counter(each.shape for each in assumed)
@@ -55,11 +46,7 @@ def test_assumptions_fill_the_ranges_of_their_family_evenly(family, field_rig):
         quarter = 0.25 * (each.high - each.low)
         counts = Counter(min(int((value - each.low) / quarter + 1e-9), 3) for value in values)
         assert set(counts.values()) == {len(assumed) // 4}
-
-
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_what_a_family_does_not_vary_is_the_library_s(family, field_rig):
-    for each in evenly_spread(family, field_rig):
+    for each in assumed:
         assert each.brake == family.brake
         assert (each.cleaning_energy is None) == (not family.cleans)
         if "fill_time" not in family.ranges:
@@ -80,18 +67,13 @@ def test_neighbours_stay_near_and_within_the_ranges():
     assert len({each.friction for each in near}) > 4
 
 
-@pytest.mark.parametrize(
-    ("name", "truth"),
-    [
-        ("library", Assumptions("dry first", 0.137, 83.0, "ep-disc", 0.8)),
-        ("library", Assumptions("dry last", 0.131, 117.0, "ep-disc", 0.8)),
-    ],
-)
-def test_a_train_that_the_rig_itself_made_is_found_again(name, truth, field_rig, monkeypatch):
+@pytest.mark.parametrize("rail", [("dry first", 0.137, 83.0), ("dry last", 0.131, 117.0)])
+def test_a_train_that_the_rig_itself_made_is_found_again(rail, field_rig, monkeypatch):
     """The search knows four figures of a stop, none of which was tried."""
+    truth = Assumptions(*rail, "ep-disc", 0.8)
     train = field_rig.stops([truth])[0]
     monkeypatch.setattr(module, "REAL_TRAIN", train.figures)
-    trials = search(field_rig, [BY_NAME[name]])
+    trials = search(field_rig, [BY_NAME["library"]])
     found = closest(trials)
     assert truth not in [trial.assumptions for trial in trials]
     assert found.stop.misfit < 0.5
@@ -128,10 +110,8 @@ def test_one_assumption_that_the_rig_s_own_train_had_is_found(field_rig, monkeyp
 
 def test_the_simplest_is_the_first_family_that_agrees_else_the_closest():
     library, ep_disc, *_ = FAMILIES
-    far, near, nearest = (
-        Trial(family, PLAIN, _stop(misfit), 0)
-        for family, misfit in ((library, 3.0), (ep_disc, 0.9), (library, 0.1))
-    )
+    misfits = ((library, 3.0), (ep_disc, 0.9), (library, 0.1))
+    far, near, nearest = (Trial(family, PLAIN, _stop(misfit), 0) for family, misfit in misfits)
     assert simplest([far, near, nearest]) is near
     assert simplest([far, Trial(ep_disc, PLAIN, _stop(1.5), 0)]).stop.misfit == pytest.approx(1.5)
 
@@ -139,11 +119,11 @@ def test_the_simplest_is_the_first_family_that_agrees_else_the_closest():
 def test_notes_say_what_agrees_and_at_which_value():
     trial = Trial(FAMILIES[0], PLAIN, _stop(2.0), 0)
     pads = Variation("pads", "pad_factor", (1.1, 1.2, 1.3))
-    points = [
-        Point(value, PLAIN, _stop(off)) for value, off in zip(pads.values, (2.0, 0.9, 0.5), strict=True)
-    ]
-    said = list(notes([trial], [trial], Point(1.0, PLAIN, _stop(2.0)), [Varied(pads, points)]))
+    base, *points = (
+        Point(*at) for at in zip((1.0, *pads.values), [PLAIN] * 4, map(_stop, (2, 2, 0.9, 0.5)), strict=True)
+    )
+    said = list(notes([trial], [trial], base, [Varied(pads, points)]))
     assert any(FAMILIES[0].title in note and "no stop agrees" in note for note in said)
     assert "- pads: agrees at 1.2 to 1.3." in said
-    said = list(notes([trial], [trial], Point(1.0, PLAIN, _stop(2.0)), [Varied(pads, points[:1])]))
+    said = list(notes([trial], [trial], base, [Varied(pads, points[:1])]))
     assert "- pads: never agrees; least misfit 2.00, at 1.1." in said

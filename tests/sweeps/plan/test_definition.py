@@ -1,15 +1,15 @@
-"""What a sweep file may say, and what is said of one that is wrong."""
+"""What a sweep file says under `vary`, what its cases are expected to come to, and how a mistake is told."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.scenario import PASS, Expectation, ScenarioErrors, load
 from uictest.plans.sweeps import group_reader, load_sweep
 from uictest.plans.sweeps.base_case import BaseCase
 
-from ..conftest import MATRIX
+from ..conftest import HEAD, MATRIX, SCENARIO, vary
 
 SAMPLE = "sample: {method: sobol, size: 4, parameters: {rail.friction: {uniform: [0.05, 0.15]}}}\n"
 
@@ -142,26 +142,6 @@ def test_as_many_cases_as_are_accepted_are_planned(load):
     assert load(LARGEST + "matrix: {seed: [0, 1, 2, 3, 4]}\n").size == 5 * 16777216
 
 
-@pytest.mark.parametrize(
-    ("distribution", "expected"),
-    [
-        ("{choice: [0.1, 0.2, 0.1, 0.2]}", "'0.1' is there twice; 1 more of the 4 values is rejected"),
-        ("{choice: [0.1, 5, 7]}", "must be at most 1; 1 more of the 3 values is rejected"),
-        ("{uniform: [0.2]}", "expected two bounds, [lowest, highest], found 1"),
-        ("{log-uniform: [0.1, 0.2, 0.3]}", "expected two bounds, [lowest, highest], found 3"),
-        ("{uniform: 0.2}", "expected two bounds, [lowest, highest], found no list"),
-        ("{triangular: [0.1, 0.2]}", "expected three values, [lowest, likeliest, highest], found 2"),
-        ("0.1", "log-uniform, triangular, normal, choice; such as {uniform: [0.08, 0.16]}"),
-    ],
-)
-def test_what_a_distribution_expects(load, distribution, expected):
-    with pytest.raises(ScenarioErrors) as caught:
-        load(f"sample: {{size: 3, parameters: {{rail.friction: {distribution}}}}}\n")
-    (error,) = caught.value.diagnostics
-    assert (error.file, error.line) == ("study.sweep.yaml", 5)
-    assert expected in str(error)
-
-
 def test_choices_of_one_label_are_two_where_they_are_written_differently(load):
     load()
     for folder in (Path("here"), Path("there")):
@@ -212,6 +192,9 @@ def test_all_errors_are_reported_at_once_and_those_of_an_axis_counted(load):
         load("matrix: {rail.frictoin: [1, 2, 3]}\n")
 
 
+OF_FRICTION = "sample: {size: 3, parameters: {rail.friction: %s}}"
+
+
 @pytest.mark.parametrize(
     ("text", "column", "expected"),
     [
@@ -223,6 +206,13 @@ def test_all_errors_are_reported_at_once_and_those_of_an_axis_counted(load):
         ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 19, "'2' with '0.002' is inconsistent with"),
         ("sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}", 60, "'0.001' is inconsist"),
         ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 62, "no vehicle 'a'"),
+        (OF_FRICTION % "{choice: [0.1, 0.2, 0.1, 0.2]}", 34, "'0.1' is there twice; 1 more of the 4 values"),
+        (OF_FRICTION % "{choice: [0.1, 5, 7]}", 64, "must be at most 1; 1 more of the 3 values is rejected"),
+        (OF_FRICTION % "{uniform: [0.2]}", 59, "expected two bounds, [lowest, highest], found 1"),
+        (OF_FRICTION % "{log-uniform: [0.1, 0.2, 0.3]}", 63, "two bounds, [lowest, highest], found 3"),
+        (OF_FRICTION % "{uniform: 0.2}", 59, "expected two bounds, [lowest, highest], found no list"),
+        (OF_FRICTION % "{triangular: [0.1, 0.2]}", 62, "values, [lowest, likeliest, highest], found 2"),
+        (OF_FRICTION % "0.1", 49, "triangular, normal, choice; such as {uniform: [0.08, 0.16]}"),
     ],
 )
 def test_an_axis_has_one_error_at_its_place(load, text, column, expected):
@@ -230,7 +220,7 @@ def test_an_axis_has_one_error_at_its_place(load, text, column, expected):
         load(text + "\n")
     (error,) = caught.value.diagnostics
     assert (error.file, error.line, error.column) == ("study.sweep.yaml", 5, column)
-    assert expected in error.message
+    assert expected in str(error)
 
 
 def test_only_the_first_rejected_value_is_read_as_a_scenario(load, monkeypatch):
@@ -275,3 +265,121 @@ def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load,
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.name)
 def test_shipped_sweeps_are_called_like_their_files(path):
     assert f"{load_sweep(path).name}.sweep.yaml" == path.name
+
+
+SECTIONS = """\
+matrix:
+  brake.command: [80 %, 100 %]
+ranges:
+  rail.friction: {first: 0.06, last: 0.10, step: 0.02}
+zip:
+  seed: [1, 2]
+  rig.wsp: [active, bypassed]
+sample: {size: 3, seed: 5, parameters: {brake.system.disc.pad_friction: {uniform: [0.3, 0.4]}}}
+"""
+
+
+@pytest.fixture
+def write(load):
+    """The plan of a sweep file with the given text."""
+    load()
+
+    def to(text, *overrides):
+        Path("study.sweep.yaml").write_text(text)
+        return load_sweep(Path("study.sweep.yaml"), overrides)
+
+    return to
+
+
+def test_a_file_of_0_2_is_told_how_it_is_written_now(write):
+    written_now = r"written for uictest 0\.2 or older: now a sweep is a scenario .* that `case` named"
+    with pytest.raises(ScenarioErrors, match=written_now):
+        write("schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {seed: [1]}\n")
+
+
+def test_lists_of_cases_that_a_sweep_inherits_do_not_count(write):
+    Path("stop.yaml").write_text(SCENARIO + "brake: {command: 70 %}\nmatrix: {brake.command: [60 %, 90 %]}\n")
+    plan = write(HEAD + vary("matrix: {seed: [1, 2]}"))
+    assert plan.size == 2
+    assert plan.base.scenario.brake.command == 0.7
+
+
+def test_a_sweep_may_extend_a_sweep(write):
+    Path("wide.sweep.yaml").write_text(HEAD + vary("matrix: {seed: [1, 2], brake.command: [80 %, 100 %]}"))
+    text = HEAD.replace("stop.yaml", "wide.sweep.yaml")
+    assert write(text + vary("matrix: {seed: [1, 2, 3]}")).size == 6
+
+
+def test_a_comment_does_not_change_which_cases_there_are(write):
+    plan = write(HEAD + vary(SECTIONS))
+    explained = write(HEAD + "# why\n" + vary(SECTIONS))
+    other_seed = write(HEAD + vary(SECTIONS.replace("seed: 5", "seed: 6")))
+    other_stop = write(HEAD + "initial_speed: 31 km/h\n" + vary(SECTIONS))
+    assert plan.cases_sha256 == explained.cases_sha256
+    assert len({plan.cases_sha256, other_seed.cases_sha256, other_stop.cases_sha256}) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "message"),
+    [
+        ("", (1, ""), "nothing varies"),
+        ("vary: {}\n", (4, ""), "give values under vary.matrix, vary.ranges, vary.zip, vary.sample"),
+        ("vary: friction\n", (4, "vary"), "expected a mapping, found a text"),
+        ("vary: {grid: {seed: [1]}}\n", (4, "vary.grid"), "unknown key 'grid'"),
+        ("vary: {matrix: {seed: {first: 1, last: 2, step: 1}}}\n", (4, "vary.matrix.seed"), "under `ranges`"),
+        ("vary: {ranges: {seed: {first: 1, last: 2}}}\n", (4, "vary.ranges.seed"), "'step' or 'count'"),
+        ("vary: {matrix: {seed: [1]}}\nmatrix: {seed: [1]}\n", (5, "matrix"), "no 'matrix' beside 'vary'"),
+        ("ranges: {seed: {first: 1, last: 2, step: 1}}\n", (4, "ranges"), "no 'ranges' beside 'vary'"),
+        ("vary: {matrix: {seed: [1]}}\nrepeat: 2\n", (5, "repeat"), "repeats its stop 2 times"),
+        ("vary: {matrix: {vary.matrix: [1]}}\n", (4, "vary.matrix.vary.matrix"), "cannot vary"),
+        ("vary: {matrix: {seed: [1]}, zip: {seed: [1]}}\n", (4, "vary.zip.seed"), "vary.matrix as well"),
+    ],
+)
+def test_a_mistake_is_told_at_its_key(write, text, place, message):
+    with pytest.raises(ScenarioErrors, match=message) as caught:
+        write(HEAD + text)
+    first = caught.value.diagnostics[0]
+    assert (first.line, first.key) == place or (not place[1] and first.line)
+
+
+def test_a_sweep_is_no_scenario_and_a_scenario_no_sweep(write):
+    write(HEAD + vary(SECTIONS))
+    with pytest.raises(ScenarioErrors, match="run it with `uictest sweep`"):
+        load([Path("study.sweep.yaml")])
+    with pytest.raises(ScenarioErrors, match="'vary' belongs to the file"):
+        load([Path("stop.yaml")], ["vary.matrix.seed=1"])
+    with pytest.raises(ScenarioErrors, match="a scenario without `vary` is run with `uictest run`"):
+        load_sweep(Path("stop.yaml"))
+
+
+STOP = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 30 km/h
+rail: {condition: wet, friction: 0.1}
+criteria: [uictest-stop]
+"""
+NAMED = Expectation("fail", ("locked-wheels",))
+
+
+@pytest.mark.parametrize(
+    ("text", "overrides", "expected"),
+    [
+        ("matrix: {rail.friction: [0.05, 0.1]}\n", [], NAMED),
+        # Where controllers are set nothing is allowed: no case of a sweep is listed with what it misses.
+        ("matrix: {controller: [threshold, slip-band]}\n", [], PASS),
+        ("matrix: {controller.deep_slide: [30 %, 40 %]}\n", [], PASS),
+        ("matrix: {rail.friction: [0.05, 0.1]}\n", ["controller=slip-band"], PASS),
+        ("matrix: {rail.friction: [0.05, 0.1]}\n", ["expect=pass"], PASS),
+    ],
+)
+def test_a_sweep_expects_of_its_cases_what_the_scenario_does_of_its_controller(
+    load, text, overrides, expected
+):
+    plan = load(text, *overrides, stop=f"{STOP}expect: {{fail: [locked-wheels]}}\n")
+    assert plan.base.scenario.expect == expected
+
+
+def test_an_expectation_without_names_allows_the_controllers_of_a_sweep_nothing(load):
+    plan = load("matrix: {controller: [threshold, slip-band]}\n", stop=f"{STOP}expect: fail\n")
+    assert plan.base.scenario.expect == PASS

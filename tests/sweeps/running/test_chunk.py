@@ -1,6 +1,7 @@
 """Chunks: which cases they hold, and the results of their cases run one by one."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -38,16 +39,9 @@ def test_an_expression_selects_by_id_and_chunks_are_those_of_a_selection(load):
     assert selection.chunk(0).tolist() == [5, 1, 3]
 
 
-class Sized:
-    """A plan as far as its size goes."""
-
-    def __init__(self, size):
-        self.size = size
-
-
 @given(st.integers(1, 3_000_000))
 def test_chunks_are_all_cases_once_and_of_a_bounded_size(size):
-    selection = CaseSelection(Sized(size))
+    selection = CaseSelection(SimpleNamespace(size=size))
     edges = [selection.chunk(0)[0], selection.chunk(selection.chunks - 1)[-1]]
     assert edges == [0, size - 1]
     assert selection.chunk(0).size <= selection.chunk_size <= 4096
@@ -60,7 +54,7 @@ def test_chunks_are_all_cases_once_and_of_a_bounded_size(size):
     ("size", "chunk"), [(10, 16), (448, 16), (3000, 93), (50_000, 1024), (10**5, 1562), (10**6, 4096)]
 )
 def test_a_chunk_is_a_fraction_of_the_cases_between_bounds(size, chunk):
-    assert CaseSelection(Sized(size)).chunk_size == chunk
+    assert CaseSelection(SimpleNamespace(size=size)).chunk_size == chunk
 
 
 @given(st.integers(0, 50), st.integers(1, 12))
@@ -70,12 +64,9 @@ def test_shards_are_all_chunks_once(chunks, count):
     assert max(map(len, shards)) - min(map(len, shards)) <= 1
 
 
-def test_written_form():
-    assert parse_shard("2/8") == Shard(2, 8)
-
-
 @pytest.mark.parametrize("text", ["0/3", "4/3", "1", "1/0", "a/b", "1/2/3", "-1/2"])
-def test_what_is_no_shard(text):
+def test_a_shard_is_written_as_number_and_count(text):
+    assert parse_shard("2/8") == Shard(2, 8)
     with pytest.raises(ValueError, match="is not a shard"):
         parse_shard(text)
 
@@ -92,41 +83,34 @@ def test_rows_are_the_results_of_the_cases(load):
         assert row["braking_distance_m"] == result.measures["braking_distance_m"]
     assert [row["parameters.brake.command"] for row in found] == ["80 %", "100 %"] * 3
     assert {row["outcome"] for row in found} == {"pass", "fail"}
+    assert found[0]["initial_adhesion_g"] is None  # it has no value
+    assert found[0]["values.rail.friction"] == 0.08
 
 
-def test_the_same_cases_give_the_same_bytes_and_a_measure_without_a_value_is_null(load):
-    row = rows(made_up(load()).run(np.array([0])))[0]
-    assert row["initial_adhesion_g"] is None
-    assert row["values.rail.friction"] == 0.08
-    plan = load()
-    assert made_up(plan).run(np.arange(6)) == made_up(plan).run(np.arange(6))
-
-
-def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load):
+def test_the_same_cases_give_the_same_bytes_also_where_chunks_share_a_queue(load):
     plan = load("sample: {size: 90, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
     runner = made_up(plan)
     chunks = [np.arange(0, 31), np.arange(31, 62), np.arange(62, 90)]
-    assert runner.run_together(chunks) == [runner.run(each) for each in chunks]
+    assert runner.run_together(chunks) == [made_up(plan).run(each) for each in chunks]
 
 
 @pytest.mark.parametrize(
-    ("chunks", "jobs", "sizes"),
+    ("chunks", "jobs", "cases", "sizes"),
     [
-        (33, 2, [8, 7, 5, 4, 3, 2, 2, 1, 1]),
-        (19, 2, [5, 4, 3, 2, 2, 2, 1]),
-        (3, 2, [2, 1]),
-        (33, 1, [8, 8, 8, 8, 1]),
-        (9, 4, [2, 2, 2, 1, 1, 1]),
+        (33, 2, 31, [8, 7, 5, 4, 3, 2, 2, 1, 1]),
+        (19, 2, 31, [5, 4, 3, 2, 2, 2, 1]),
+        (3, 2, 31, [2, 1]),
+        (33, 1, 31, [8, 8, 8, 8, 1]),
+        (9, 4, 31, [2, 2, 2, 1, 1, 1]),
+        (70, 2, 1024, [1] * 70),
     ],
 )
-def test_queues_hold_every_chunk_once_and_become_shorter_for_threads_to_end_together(chunks, jobs, sizes):
-    queues = queues_of(range(chunks), jobs, 31)
+def test_queues_hold_every_chunk_once_and_become_shorter_for_threads_to_end_together(
+    chunks, jobs, cases, sizes
+):
+    queues = queues_of(range(chunks), jobs, cases)
     assert [chunk for queue in queues for chunk in queue] == list(range(chunks))
     assert [len(queue) for queue in queues] == sizes
-
-
-def test_queues_of_long_chunks_are_chunks():
-    assert queues_of(range(70), 2, 1024) == [range(n, n + 1) for n in range(70)]
 
 
 @pytest.mark.parametrize(
@@ -141,13 +125,8 @@ def test_threads_take_queues_of_chunks_that_come_out_in_order(load, jobs, queues
         return formula(parameters, own, rail)
 
     written = []
-    run_on_threads(
-        made_up(plan, simulate),
-        CaseSelection(plan),
-        range(32),
-        jobs,
-        lambda number, _: written.append(number),
-    )
+    runner, selection = made_up(plan, simulate), CaseSelection(plan)
+    run_on_threads(runner, selection, range(32), jobs, lambda number, _: written.append(number))
     assert written == list(range(32))
     assert sorted(sizes) == sorted(31 * chunks for chunks in queues)
 
@@ -176,7 +155,7 @@ def test_chunks_are_summarised_in_their_order_whatever_the_order_in_which_they_a
         assert summary.result().result == whole
 
 
-def test_a_case_that_fails_is_a_row_with_its_reason(load):
+def test_a_case_that_fails_or_is_rejected_is_a_row_with_its_reason(load):
     def breaks(parameters, own, rail):
         if (rail[:, 1, 0] == 0.10).any():
             raise ZeroDivisionError("no wheel load")
@@ -189,9 +168,6 @@ def test_a_case_that_fails_is_a_row_with_its_reason(load):
     ]
     assert found[2]["reason"] == "ZeroDivisionError: no wheel load"
     assert found[2]["braking_distance_m"] is None
-
-
-def test_a_rejected_combination_is_a_row_with_its_reason(load):
     plan = load("matrix: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n")
     found = rows(made_up(plan).run(np.arange(4)))
     assert [row["outcome"] for row in found].count("error") == 1

@@ -14,7 +14,9 @@ import numpy as np
 import pytest
 
 from uictest import rig
-from uictest.running.chunked import CaseSelection, chunk_runner
+from uictest.cli.entry import execute
+from uictest.running.chunked import CaseSelection, chunk_runner, cluster as cluster_module
+from uictest.running.chunked.cluster import ClusterError, check_address, run_on_cluster
 
 distributed = pytest.importorskip("distributed")
 
@@ -42,8 +44,6 @@ def cluster():
 
 
 def test_chunks_are_the_same_and_a_dead_worker_is_survived(load, cluster):
-    from uictest.running.chunked.cluster import run_on_cluster
-
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     here = chunk_runner(selection.plan, rig.run_block)
     found = {}
@@ -60,8 +60,6 @@ def test_chunks_are_the_same_and_a_dead_worker_is_survived(load, cluster):
 
 
 def test_only_missing_chunks_are_run(load, cluster):
-    from uictest.running.chunked.cluster import run_on_cluster
-
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
     found = []
     run_on_cluster(selection, [2], cluster.scheduler_address, lambda number, content: found.append(number))
@@ -69,18 +67,12 @@ def test_only_missing_chunks_are_run(load, cluster):
 
 
 def test_a_scheduler_that_does_not_answer_is_reported(load, monkeypatch):
-    from uictest.running.chunked import cluster as module
-
-    monkeypatch.setattr(module, "_TIMEOUT", "100ms")
-    with pytest.raises(module.ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
-        module.run_on_cluster(
-            CaseSelection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None
-        )
+    monkeypatch.setattr(cluster_module, "_TIMEOUT", "100ms")
+    with pytest.raises(ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
+        run_on_cluster(CaseSelection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None)
 
 
 def test_waiting_for_workers_is_reported_once(load):
-    from uictest.running.chunked.cluster import run_on_cluster
-
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     found = []
     told = []
@@ -106,8 +98,6 @@ def announced_address(file, scheduler):
 
 
 def test_a_scheduler_that_dies_is_one_line(load):
-    from uictest.running.chunked import cluster as module
-
     log = logging.getLogger("distributed.client")
     log.setLevel(logging.WARNING)
     program = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
@@ -116,10 +106,8 @@ def test_a_scheduler_that_dies_is_one_line(load):
         [*program, "--no-dashboard", "--scheduler-file", said], stderr=subprocess.DEVNULL
     )
     address = announced_address(said, scheduler)
-    with pytest.raises(module.ClusterError) as raised:
-        module.run_on_cluster(
-            CaseSelection(load(TEXT)), [0], address, lambda number, content: None, scheduler.kill
-        )
+    with pytest.raises(ClusterError) as raised:
+        run_on_cluster(CaseSelection(load(TEXT)), [0], address, lambda number, content: None, scheduler.kill)
     scheduler.wait()
     assert str(raised.value).startswith(address)
     assert "\n" not in str(raised.value)
@@ -128,8 +116,6 @@ def test_a_scheduler_that_dies_is_one_line(load):
 
 @pytest.mark.parametrize("address", ["foo", "foo:x", "tcp://127.0.0.1:", "127.0.0.1:99999", ":8786", ""])
 def test_what_is_no_address_is_rejected(load, capsys, address):
-    from uictest.cli.entry import execute
-
     assert execute(["sweep", load(TEXT).file, "--dask", address]) == 4
     said = capsys.readouterr().err
     assert f"--dask: {address!r} is not an address such as tcp://127.0.0.1:8786" in said
@@ -138,14 +124,10 @@ def test_what_is_no_address_is_rejected(load, capsys, address):
 
 @pytest.mark.parametrize("address", ["foo:1", "tcp://foo:1", "tls://127.0.0.1:8786", "[::1]:8786"])
 def test_addresses(address):
-    from uictest.running.chunked.cluster import check_address
-
     check_address(address)
 
 
 def test_the_command_line_gives_the_summary_that_a_local_run_gives(load, cluster):
-    from uictest.cli.entry import execute
-
     plan = load(TEXT, "initial_speed=15 km/h")
     arguments = ["sweep", plan.file, "--set", "initial_speed=15 km/h", "-q"]
     assert execute([*arguments, "-o", "far", "--dask", cluster.scheduler_address]) == 0

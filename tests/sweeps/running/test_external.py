@@ -14,7 +14,7 @@ from uictest.running.campaign import RecordingRequest, Stop, map_on_threads, run
 from uictest.running.chunked import chunk_runner, cluster, named_controller
 from uictest.running.chunked.store import program_digest
 
-from ..conftest import rows, written_out
+from ..conftest import TRAIN, rows, written_out
 
 FRICTIONS = "  rail.friction: [0.06, 0.08, 0.10]\n"
 
@@ -46,21 +46,12 @@ def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, librar
     assert references[0] > references[1] > references[2] > 0.0
 
 
-TRAIN = """\
-schema: uictest/scenario/1
-name: study
-initial_speed: 14 km/h
-until: 12 km/h
-rail: {condition: wet-cleaning, friction: 0.05}
-criteria: uictest-rig
-expect: skipped
-train: [{}, {brake: {command: 80 %}}]
-"""
+PAIR = TRAIN.replace("vehicle: crh380a, count: 2, brake: {command: 50 %}", "brake: {command: 80 %}")
 
 
 def test_trains_have_the_same_bits_with_controllers_of_all_kinds(load, library, python_file):
     kinds = f"[slip-band, {{library: {library}}}, {{python: {python_file}}}]"
-    plan = load(f"matrix:\n  controller: {kinds}\n{FRICTIONS}", stop=TRAIN)
+    plan = load(f"matrix:\n  controller: {kinds}\n{FRICTIONS}", stop=PAIR)
     found = rows_of(plan)
     built_in = with_common_noise(found, "slip-band")
     assert len(built_in) == 2 * 3
@@ -75,7 +66,7 @@ def test_rows_and_result_name_the_controller_of_each_case(load, library, python_
     alone = load(f"matrix:\n  rail.friction: [0.06, 0.08]\n  controller: [threshold, {given}]\n")
     drawn = f"{{controller: {{choice: [threshold, {given}]}}}}"
     chosen = load(f"sample: {{size: 1, seed: 2, parameters: {drawn}}}\n")
-    train = load(f"matrix:\n  train.1.controller: [{given}]\n{FRICTIONS}", stop=TRAIN)
+    train = load(f"matrix:\n  train.1.controller: [{given}]\n{FRICTIONS}", stop=PAIR)
     assert names_in(rows_of(alone)) == [threshold, *others] * 2
     assert names_in(rows_of(train)) == [each for own in others for each in (threshold, own) * 3]
     for plan in (alone, chosen, train):
@@ -94,7 +85,7 @@ def names_in(found):
 def test_a_train_whose_controller_fails_is_rows_of_errors_beside_the_others(load, python_file, jobs):
     """In child processes, whatever their number; a mixed train, too."""
     controller = f"{{python: {python_file}, parameters: {{fails_at: -1}}}}"
-    train = TRAIN.replace("[{}, {", f"[{{controller: slip-band}}, {{controller: {controller}, ")
+    train = PAIR.replace("[{}, {", f"[{{controller: slip-band}}, {{controller: {controller}, ")
     plan = load(f"matrix:\n  train.1.controller.parameters.fails_at: [-1, 9]\n{FRICTIONS}", stop=train)
     with rig.Workers() as workers:
         runner = chunk_runner(plan, workers.run_block, workers.run_train)
@@ -105,7 +96,7 @@ def test_a_train_whose_controller_fails_is_rows_of_errors_beside_the_others(load
     told = f"controller: car 2 (slip_band.py): {why}"
     assert [row["reason"] for row in found[6:]] == [told] * 6
     assert {row["outcome"] for row in found[:6]} == {"skipped"}
-    expected = rows_of(load(f"matrix:\n  controller: [slip-band]\n{FRICTIONS}", stop=TRAIN))
+    expected = rows_of(load(f"matrix:\n  controller: [slip-band]\n{FRICTIONS}", stop=PAIR))
     assert [without_names(row) for row in found[:6]] == [without_names(row) for row in expected]
 
 
@@ -131,28 +122,22 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, k
             assert row["outcome"] == alone.outcome != "error"
 
 
+UPPER_SLIDE = "controller.parameters.upper_slide"
+
+
 @pytest.mark.parametrize(
     ("text", "texts"),
     [
-        ("matrix:\n  controller.parameters.upper_slide: [0.1, 0.3]\n", ["0.1", "0.3"]),
-        (
-            "ranges:\n  controller.parameters.upper_slide: {first: 0.1, last: 0.3, count: 3}\n",
-            ["0.1", "0.2", "0.3"],
-        ),
-        ("zip:\n  controller.parameters.upper_slide: [0.1, 0.3]\n  seed: [1, 2]\n", ["0.1", "0.3"]),
-        (
-            "sample:\n  size: 2\n  parameters:\n    controller.parameters.upper_slide: {choice: [0.3]}\n",
-            ["0.3", "0.3"],
-        ),
+        pytest.param("matrix: {%s: [0.1, 0.3]}", ["0.1", "0.3"], id="matrix"),
+        pytest.param("ranges: {%s: {first: 0.1, last: 0.3, count: 3}}", ["0.1", "0.2", "0.3"], id="ranges"),
+        pytest.param("zip: {%s: [0.1, 0.3], seed: [1, 2]}", ["0.1", "0.3"], id="zip"),
+        pytest.param("sample: {size: 2, parameters: {%s: {choice: [0.3]}}}", ["0.3", "0.3"], id="choice"),
     ],
-    ids=["matrix", "ranges", "zip", "choice"],
 )
 def test_parameters_of_a_controller_are_swept(load, python_file, text, texts):
-    found = rows_of(load(text, f"controller={{python: {python_file}}}"))
-    assert [row["parameters.controller.parameters.upper_slide"] for row in found] == texts
-    assert [row["values.controller.parameters.upper_slide"] for row in found] == [
-        float(each) for each in texts
-    ]
+    found = rows_of(load(f"{text % UPPER_SLIDE}\n", f"controller={{python: {python_file}}}"))
+    assert [row[f"parameters.{UPPER_SLIDE}"] for row in found] == texts
+    assert [row[f"values.{UPPER_SLIDE}"] for row in found] == [float(each) for each in texts]
 
 
 @pytest.mark.parametrize(
@@ -165,12 +150,9 @@ def test_parameters_of_a_controller_are_swept(load, python_file, text, texts):
     ],
 )
 def test_parameters_of_a_controller_are_drawn_as_bare_numbers(load, python_file, distribution):
-    key = "controller.parameters.upper_slide"
-    plan = load(
-        f"sample:\n  size: 4\n  parameters:\n    {key}: {{{distribution}}}\n",
-        f"controller={{python: {python_file}}}",
-    )
-    values = plan.settings(np.arange(4))[key]
+    text = f"sample: {{size: 4, parameters: {{{UPPER_SLIDE}: {{{distribution}}}}}}}\n"
+    plan = load(text, f"controller={{python: {python_file}}}")
+    values = plan.settings(np.arange(4))[UPPER_SLIDE]
     assert all(type(value.content) is float and 0.1 <= value.content <= 0.3 for value in values)
     assert len({value.text for value in values}) == 4
     assert {row["outcome"] for row in rows_of(plan)} <= {"pass", "fail", "invalid"}

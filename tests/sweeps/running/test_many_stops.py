@@ -1,7 +1,6 @@
 """A case of a sweep has the bits of its scenario written out, and is judged as that is."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +8,7 @@ import pytest
 from uictest.judging.evaluation import evaluate_simulated
 from uictest.rig import assemble
 
-from ..conftest import MATRIX, formula, formula_of, made_up, written_out
+from ..conftest import MATRIX, SCENARIO, formula, formula_of, made_up, written_out
 
 SWEEPS = {
     "grid": MATRIX + "  initial_speed: [20 km/h, 8 m/s]\n",
@@ -252,11 +251,7 @@ def test_a_case_that_cannot_be_judged_is_an_error_and_its_neighbours_are_judged(
 @pytest.mark.parametrize(("entry", "key"), [("{}", "criteria.criteria.0"), ("[{}]", "criteria.0.criteria.0")])
 def test_a_case_is_judged_by_its_own_bound(load, entry, key):
     own = "{name: own, criteria: [{id: d, layer: requirement, measure: braking_distance, upper: 1 m}]}"
-    stop = Path("stop.yaml")
-    plan = load()
-    stop.write_text(f"{stop.read_text()}criteria: {entry.format(own)}\n")
-    plan = load(
-        f"matrix: {{{key}.upper: [1 m, 1 km], rail.friction: [0.08, 0.12], brake.command: [80 %, 90 %]}}\n"
-    )
+    text = f"{{{key}.upper: [1 m, 1 km], rail.friction: [0.08, 0.12], brake.command: [80 %, 90 %]}}"
+    plan = load(f"matrix: {text}\n", stop=f"{SCENARIO}criteria: {entry.format(own)}\n")
     results, _ = made_up(plan).results(np.arange(8), plan.settings(np.arange(8)))
     assert [each.outcome for each in results] == ["fail"] * 4 + ["pass"] * 4

@@ -1,7 +1,6 @@
 """Sweeps in survey steps: fast where the verdict is clear, in regular steps where a bias could decide it."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -50,7 +49,7 @@ def test_survey_is_no_value_among_others(load, values):
         load(MATRIX, f"simulation.time_step={values}")
 
 
-def test_a_scenario_has_no_survey_step(tmp_path):
+def test_a_scenario_has_no_survey_step_and_the_bias_is_not_known_beside_another_step(load, tmp_path):
     path = tmp_path / "stop.yaml"
     path.write_text(f"{SCENARIO}simulation: {{time_step: survey}}\n")
     with pytest.raises(ScenarioErrors) as caught:
@@ -58,14 +57,8 @@ def test_a_scenario_has_no_survey_step(tmp_path):
     [error] = caught.value.diagnostics
     assert (error.key, error.line) == ("simulation.time_step", 5)
     assert "uictest sweep ... --set simulation.time_step=survey" in error.hint
-
-
-def test_the_bias_is_not_known_beside_another_step(load):
-    scenario = f"{SCENARIO}simulation: {{time_step: 0.25 ms}}\n"
-    load()
-    Path("fine.yaml").write_text(scenario)
     with pytest.raises(ScenarioErrors, match=r"known beside 0\.5 ms; the scenario is run in 0\.25 ms"):
-        load(MATRIX, SURVEY, scenario="fine.yaml")
+        load(MATRIX, SURVEY, stop=f"{SCENARIO}simulation: {{time_step: 0.25 ms}}\n")
 
 
 @pytest.mark.parametrize(
@@ -92,27 +85,27 @@ def test_only_cases_within_their_bias_of_a_limit_are_repeated(load, survey):
     assert 0 < sum(near) < len(near)
 
 
-def test_nothing_is_repeated_without_a_bias_and_everything_for_an_unknown_one(load, survey):
-    plan = load(MATRIX, SURVEY)
-    assert {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))} == {1.0}
-    plan = load(MATRIX, SURVEY, "criteria=uictest-stop")
-    known = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
-    runner = made_up(plan, survey_biases=known)
-    assert {row["time_step_ms"] for row in rows(runner.run(np.arange(plan.size)))} == {0.5}
+WITHOUT_LOCK = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
 
 
-def test_a_value_at_its_limit_is_repeated_where_the_step_moves_it_at_all(load, survey):
-    """In the formula nothing saturates: 0 s at a limit of 0 s."""
-    plan = load(MATRIX, SURVEY, "criteria=uictest-rig")
-    steps = {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))}
-    moved = {row["time_step_ms"] for row in rows(survey(plan, loadcell_saturation=0.1).run(np.arange(6)))}
-    assert (steps, moved) == ({1.0}, {0.5})
-
-
-def test_criteria_of_a_series_decide_nothing(load, survey):
-    plan = load(MATRIX, SURVEY, "criteria=uictest-wsp")
-    found = rows(survey(plan).run(np.arange(plan.size)))
-    assert {row["time_step_ms"] for row in found} == {1.0}
+@pytest.mark.parametrize(
+    ("criteria", "biases", "step"),
+    [
+        ("uictest-stop", NO_BIAS, 1.0),
+        ("uictest-stop", WITHOUT_LOCK, 0.5),
+        # In the formula nothing saturates: 0 s at a limit of 0 s.
+        ("uictest-rig", NO_BIAS, 1.0),
+        ("uictest-rig", {**NO_BIAS, "loadcell_saturation": 0.1}, 0.5),
+        # Criteria of a series decide nothing in a case.
+        ("uictest-wsp", NO_BIAS, 1.0),
+    ],
+)
+def test_all_is_repeated_for_an_unknown_bias_or_one_at_the_limit_and_nothing_without(
+    load, criteria, biases, step
+):
+    plan = load(MATRIX, SURVEY, f"criteria={criteria}")
+    found = rows(made_up(plan, survey_biases=biases).run(np.arange(plan.size)))
+    assert {row["time_step_ms"] for row in found} == {step}
 
 
 def test_what_the_survey_step_cannot_simulate_is_repeated(load, survey):
@@ -140,15 +133,12 @@ def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer
     assert beside["0.5 ms"] != beside["1 ms"]
 
 
-def test_a_survey_and_a_regular_sweep_have_different_manifests(load):
+def test_a_sweep_depends_on_whether_it_is_a_survey_and_on_the_biases(load, monkeypatch):
     def manifest(*overrides):
         selection = CaseSelection(load(MATRIX, *overrides))
         return sweep_manifest(selection, expression=None, overrides=(), seed=None)
 
     assert manifest(SURVEY) == manifest() | {"time_step": "survey"}
-
-
-def test_the_biases_belong_to_what_a_sweep_depends_on(monkeypatch):
     before = program_digest.__wrapped__()
     monkeypatch.setattr(library, "table", lambda name: "another table")
     assert program_digest.__wrapped__() != before
@@ -168,15 +158,12 @@ def test_the_bias_of_every_criterion_of_the_library_is_known(load):
     assert survey_step(load(), 0, []) is None
 
 
-def test_a_measure_without_a_bias_is_named(load, monkeypatch):
+def test_a_measure_without_a_bias_is_named_and_one_has_the_largest_of_any_shipped_case(load, monkeypatch):
     known = {name: each for name, each in survey_biases().items() if name != "longest_lock"}
     monkeypatch.setattr("uictest.running.chunked.table.survey_biases", lambda: known)
     survey = survey_step(load(MATRIX, SURVEY, "criteria=[uictest-stop,uictest-wsp]"), 6, [])
     assert survey.unknown == ("longest_lock",)
     assert "bias of the survey step: not known of longest_lock" in list(survey_notes(survey, 6))
-
-
-def test_the_bias_is_the_largest_of_any_shipped_case():
     known = survey_biases()
     assert known["standstill"].bias == 0.0
     assert 0.0 < known["braking_distance"].bias < known["braking_distance"].of_single_stops

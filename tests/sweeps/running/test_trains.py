@@ -13,18 +13,8 @@ from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.running.chunked import CaseSelection, chunk_runner, select_cases
 from uictest.runs import Observer, SweepRequest, firmness, run_sweep
 
-from ..conftest import rows
+from ..conftest import TRAIN, rows
 
-TRAIN = """\
-schema: uictest/scenario/1
-name: study
-initial_speed: 14 km/h
-until: 12 km/h
-rail: {condition: wet-cleaning, friction: 0.05}
-criteria: uictest-rig
-expect: skipped
-train: [{}, {vehicle: crh380a, count: 2, brake: {command: 50 %}}]
-"""
 MATRIX = """\
 matrix:
   rail.friction: [0.04, 0.05]
@@ -48,7 +38,7 @@ def known(figures, names=None):
     return {name: value for name, value in figures.items() if value is not None and not math.isnan(value)}
 
 
-def test_every_car_is_a_row_with_the_bits_of_the_same_case_of_a_scenario(loaded, tmp_path):
+def test_every_car_is_a_row_with_the_bits_of_the_same_case_of_a_scenario_in_whatever_chunk(loaded, tmp_path):
     plan = loaded()
     assert plan.size == 24
     found = of_chunk(plan, range(plan.size))
@@ -66,18 +56,12 @@ def test_every_car_is_a_row_with_the_bits_of_the_same_case_of_a_scenario(loaded,
             of_row = {name: row[f"{name}_{place}"] for name in wheelset}
             assert known(of_row) == known(wheelset)
     assert len({row["energy_residual"] for row in found}) == 24
-
-
-def test_a_car_is_the_same_in_whatever_chunk(loaded):
-    plan = loaded()
-    whole = of_chunk(plan, range(plan.size))
-    assert of_chunk(plan, [4, 5, 6, 11]) == [whole[place] for place in (4, 5, 6, 11)]
+    assert of_chunk(plan, [4, 5, 6, 11]) == [found[place] for place in (4, 5, 6, 11)]
     selection = select_cases(plan, "car=2")
-    assert isinstance(selection, CaseSelection)
-    assert of_chunk(plan, selection.indices(0, selection.size)) == whole[1::3]
+    assert of_chunk(plan, selection.indices(0, selection.size)) == found[1::3]
 
 
-def test_cases_that_a_page_draws_are_cars_of_their_trains(loaded):
+def test_cases_are_cars_of_their_trains_and_numbers_of_one_car_are_drawn(loaded):
     first, second, other = loaded().cases(np.array([3, 4, 23]))
     assert first.train.scenarios is second.train.scenarios
     assert (first.train.train, second.train.number) == (
@@ -86,6 +70,12 @@ def test_cases_that_a_page_draws_are_cars_of_their_trains(loaded):
     )
     assert [each.brake.command for each in other.train.scenarios] == [1.0, 0.5, 0.5]
     assert other.train.scenarios[1] is other.train.scenarios[2] is other.scenario
+    plan = loaded("sample: {size: 3, parameters: {train.0.vehicle.body.mass: {uniform: [30 t, 40 t]}}}\n")
+    cases = plan.cases(np.arange(9))
+    masses = [[float(car.vehicle.body.mass) for car in case.train.scenarios] for case in cases]
+    assert all(30e3 <= leading <= 40e3 for leading, *_ in masses)
+    assert len({leading for leading, *_ in masses}) == 3
+    assert len({tuple(others) for _, *others in masses}) == 1
 
 
 def test_a_train_that_cannot_run_is_an_error_of_its_cars_alone(loaded):
@@ -136,12 +126,3 @@ def test_a_key_that_every_car_has_of_its_own_reaches_none(load):
     own = TRAIN.replace("{}, {", "{brake: {command: 70 %}}, {")
     with pytest.raises(ScenarioErrors, match="every car has one of its own"):
         load("matrix: {brake.command: [80 %, 100 %]}\n", stop=own)
-
-
-def test_numbers_of_one_car_are_drawn(loaded):
-    plan = loaded("sample: {size: 3, parameters: {train.0.vehicle.body.mass: {uniform: [30 t, 40 t]}}}\n")
-    cases = plan.cases(np.arange(9))
-    masses = [[float(car.vehicle.body.mass) for car in case.train.scenarios] for case in cases]
-    assert all(30e3 <= leading <= 40e3 for leading, *_ in masses)
-    assert len({leading for leading, *_ in masses}) == 3
-    assert len({tuple(others) for _, *others in masses}) == 1

@@ -15,6 +15,8 @@ from uictest.report import domain_notes
 from uictest.running.campaign import parts_of_cases
 from uictest.running.chunked.table import number_column, text_column
 
+from ..conftest import SCENARIO
+
 
 def rows_of(plan, indices):
     """Return the columns that a chunk has of its cases."""
@@ -69,20 +71,13 @@ def test_by_column_is_what_each_case_alone_comes_to(load, plan):
     compare_with_each_alone(load(plan), reference(*STOPS))
 
 
-def test_friction_that_the_condition_gives_is_a_column_like_any_other(load):
-    scenario = Path("stop.yaml")
-    scenario.write_text(scenario.read_text().replace(", friction: 0.1", ""))
-    plan = load(f"{SAMPLE}    rail.condition.friction: {{uniform: [0.05, 0.15]}}\n")
+def test_friction_of_the_condition_is_a_column_like_any_other_and_one_over_time_spans_its_factors(load):
+    text = f"{SAMPLE}    rail.condition.friction: {{uniform: [0.05, 0.15]}}\n"
+    plan = load(text, stop=SCENARIO.replace(", friction: 0.1", ""))
     compare_with_each_alone(plan, reference(("rail.condition.friction=0.1",), ("rail.friction=0.12",)))
-
-
-def test_friction_that_changes_over_time_spans_its_factors(load):
-    scenario = Path("stop.yaml")
-    points = "[{time: 0 s, factor: 1}, {time: 5 s, factor: 1.5}]"
-    scenario.write_text(
-        f"{scenario.read_text()}".replace("0.1}", f"0.1, friction_over_time: {{points: {points}}}}}")
-    )
-    plan = load("matrix:\n  rail.friction: [0.08, 0.1]\n")
+    course = "friction_over_time: {points: [{time: 0 s, factor: 1}, {time: 5 s, factor: 1.5}]}"
+    stop = SCENARIO.replace("0.1}", f"0.1, {course}}}")
+    plan = load("matrix:\n  rail.friction: [0.08, 0.1]\n", stop=stop)
     compare_with_each_alone(plan, reference(("rail.friction=0.09",)))
 
 
@@ -106,7 +101,7 @@ def compare_with_each_alone(plan, validated):
     assert cases == Counter(key for keys in alone for key in keys)
 
 
-def test_a_condition_spans_the_numbers_of_its_cases(load):
+def test_a_condition_spans_the_numbers_of_its_cases_and_a_sweep_inside_says_so(load):
     plan = load("matrix:\n  initial_speed: [30 km/h, 50 km/h, 70 km/h]\n  rail.friction: [0.1, 0.2]\n")
     tally = DomainTally(plan, reference(("rail.friction=0.1",)))
     for index in range(plan.size):
@@ -120,9 +115,6 @@ def test_a_condition_spans_the_numbers_of_its_cases(load):
         "5 of 6 cases outside of what my-train validated: initial_speed 70 km/h > 30 km/h in 4;"
         " rail.friction 0.2 > 0.1 in 3"
     )
-
-
-def test_a_sweep_inside_of_what_was_validated_says_so(load):
     plan = load("matrix:\n  rail.friction: [0.1]\n")
     tally = DomainTally(plan, reference(("rail.friction=0.1",)))
     assert tally.with_column(rows_of(plan, [0]))[OUTSIDE].to_pylist() == [""]

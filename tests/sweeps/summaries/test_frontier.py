@@ -71,11 +71,7 @@ def test_no_flip_is_noted_and_cases_that_were_not_run_are_none(load):
 @pytest.mark.parametrize(
     ("key", "tolerance", "message"),
     [
-        (
-            "initial_speed",
-            None,
-            "needs two values or more under `matrix` or `ranges`; there are: brake.command,",
-        ),
+        ("initial_speed", None, "needs two values or more under `matrix` or `ranges`; there are: brake.comm"),
         ("seed", None, "seed is not a quantity"),
         ("brake.command", "0.1", "the tolerance must be above zero and in %"),
     ],

@@ -25,7 +25,7 @@ def columns(load):
     return plan, {key: np.array([value.number for value in values]) for key, values in settings.items()}
 
 
-def test_a_sum_has_the_shares_of_its_variances(load):
+def test_a_sum_has_the_shares_of_its_variances_and_a_product_acts_only_together(load):
     plan, x = columns(load)
     # Variances of a uniform variable go with the square of its width: 1 : 4.
     found, why_not = sobol_sensitivities(plan, "y", 10.0 * x["rail.friction"] + 4.0 * x["brake.command"])
@@ -39,10 +39,7 @@ def test_a_sum_has_the_shares_of_its_variances(load):
         {"seed": WrittenValue("1")},
         {"seed": WrittenValue("2")},
     ]
-
-
-def test_a_product_of_centred_variables_acts_only_together(load):
-    plan, x = columns(load)
+    # A product of centred variables.
     y = (x["rail.friction"] - 0.1) * (x["brake.command"] - 0.75)
     found, _ = sobol_sensitivities(plan, "y", y)
     assert [each.first.value for each in found[:2]] == pytest.approx([0.0, 0.0], abs=0.1)
@@ -58,19 +55,15 @@ def test_the_interval_of_a_mean_is_that_of_the_normal_distribution():
         assert np.mean(distance / deviation) == pytest.approx(1.96, rel=0.04)
 
 
-def test_the_same_values_give_the_same_intervals(load):
-    plan, x = columns(load)
-    y = np.sin(40.0 * x["rail.friction"]) + x["brake.command"] ** 2
-    assert sobol_sensitivities(plan, "y", y) == sobol_sensitivities(plan, "y", y)
-
-
-def test_why_there_are_none(load):
+def test_the_same_values_give_the_same_intervals_and_where_there_are_none_it_says_why(load):
     plan, x = columns(load)
     y = x["rail.friction"].copy()
     y[3] = np.nan
     assert sobol_sensitivities(plan, "y", y) == ([], f"1 of {y.size} cases have no y")
     assert sobol_sensitivities(plan, "y", np.ones(y.size)) == ([], "y is the same in all cases")
     assert saltelli_sample(load()) is None
+    y = np.sin(40.0 * x["rail.friction"]) + x["brake.command"] ** 2
+    assert sobol_sensitivities(plan, "y", y) == sobol_sensitivities(plan, "y", y)
 
 
 @pytest.mark.parametrize(("width", "doubted"), [(0.15, False), (0.75, True)])

@@ -30,8 +30,8 @@ def write(folder, result, file):
 def finished(load, tmp_path):
     """The findings of a finished sweep and the folder they are written to."""
 
-    def finish(text=MATRIX, scenario="stop.yaml"):
-        selection = CaseSelection(load(text, scenario=scenario))
+    def finish(text=MATRIX, stop=SCENARIO):
+        selection = CaseSelection(load(text, stop=stop))
         store = stored(selection, made_up(selection.plan), tmp_path / "out")
         keys = selection.plan.keys
         result = result_of(selection, store, (keys[0], keys[1]))
@@ -76,7 +76,7 @@ def table(path):
         return list(csv.reader(file))
 
 
-def test_the_files_of_a_summary_hold_its_counts_maps_and_parameters(finished):
+def test_the_files_of_a_summary_hold_a_row_per_case_its_counts_maps_and_parameters_and_come_back(finished):
     result, folder = finished()
     assert result.cases == 6
     rates = table(folder / "tables/rates.csv")
@@ -106,10 +106,6 @@ def test_the_files_of_a_summary_hold_its_counts_maps_and_parameters(finished):
         "0.10     .      .",
         "0.12     .      .",
     ]
-
-
-def test_one_row_per_case_one_testcase_per_value_and_the_document_comes_back(finished):
-    result, folder = finished()
     binary = pd.read_parquet(folder / "summary.parquet")
     text = pd.read_csv(folder / "summary.csv", dtype={"parameters.rail.friction": str})
     assert len(binary) == len(text) == 6
@@ -127,23 +123,10 @@ def test_one_row_per_case_one_testcase_per_value_and_the_document_comes_back(fin
     read_back = read_sweep_document(read_document(folder))
     assert sweep_document(read_back) == read_document(folder)
     assert replace(read_back, maps=()) == replace(result, maps=())
-    document = read_document(folder)
     others = dict.fromkeys(("invalid", "inconclusive", "error", "skipped"), 0)
     assert document["outcomes"] == {"pass": 5, "fail": 1, **others}
     assert document["maps"][0]["means"][0] == [1.0, 0.0]
-
-
-def test_rows_of_a_zip_that_share_a_value_are_counted_together(finished):
-    _, folder = finished("zip:\n  rail.friction: [0.08, 0.10, 0.12]\n  brake.command: [80 %, 100 %, 80 %]\n")
-    rates = [row[1:3] for row in table(folder / "tables/rates.csv") if row[0] == "brake.command"]
-    assert rates == [["80 %", "2"], ["100 %", "1"]]
-    assert [row[0] for row in table(folder / "tables/map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
-    assert table(folder / "tables/map-met.csv")[0][1:] == ["80 %", "100 %"]
-
-
-def test_trends_of_a_figure_along_each_parameter(finished):
-    _, folder = finished()
-    cases = pq.read_table(folder / "summary.parquet").to_pylist()
+    cases = binary.to_dict("records")
     trends = {tuple(row[:3]): row[3:] for row in table(folder / "tables/trends.csv")}
     for key, value in {
         (key, case[f"parameters.{key}"]) for case in cases for key in ("rail.friction", "brake.command")
@@ -153,6 +136,14 @@ def test_trends_of_a_figure_along_each_parameter(finished):
         assert (unit, count) == ("m", str(len(own)))
         expected = [min(own), sum(own) / len(own), max(own)]
         assert [float(number) for number in numbers] == pytest.approx(expected)
+
+
+def test_rows_of_a_zip_that_share_a_value_are_counted_together(finished):
+    _, folder = finished("zip:\n  rail.friction: [0.08, 0.10, 0.12]\n  brake.command: [80 %, 100 %, 80 %]\n")
+    rates = [row[1:3] for row in table(folder / "tables/rates.csv") if row[0] == "brake.command"]
+    assert rates == [["80 %", "2"], ["100 %", "1"]]
+    assert [row[0] for row in table(folder / "tables/map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
+    assert table(folder / "tables/map-met.csv")[0][1:] == ["80 %", "100 %"]
 
 
 def test_a_parameter_of_too_many_values_has_no_trend(finished):
@@ -183,16 +174,13 @@ def counting(tables, read):
     return counted
 
 
-def test_a_large_map_is_shown_coarser_and_written_whole(finished):
+def test_a_large_map_is_shown_coarser_and_drawn_parameters_are_counted_in_intervals(finished):
     result, folder = finished(
         "ranges:\n  rail.friction: {first: 0.05, last: 0.15, count: 60}\n"
         "  brake.command: {first: 70 %, last: 100 %, step: 30 %}\n"
     )
     assert len(list(map_lines(result.maps[0], None))) == 3 + 20
     assert len(table(folder / "tables/map-met.csv")) == 1 + 60
-
-
-def test_drawn_parameters_are_counted_in_intervals(finished):
     result, _ = finished(
         "sample:\n  method: sobol\n  size: 64\n  parameters:\n    rail.friction: {uniform: [0.05, 0.15]}\n"
         "    rig.topology: {choice: [one-caliper, four-caliper]}\n"
@@ -203,12 +191,10 @@ def test_drawn_parameters_are_counted_in_intervals(finished):
     assert [count.cases for count in result.rates["rig.topology"]] == [32, 32]
 
 
-def test_the_requirements_of_the_scenario_are_those_of_every_testcase(finished, tmp_path):
+def test_the_requirements_of_the_scenario_are_those_of_every_testcase(finished):
     _, folder = finished()
     assert not (folder / "junit-properties.xml").exists()
-    scenario = SCENARIO + "requirements: [BR-1, BR-2]\ntest_case: WSP-TC-7\n"
-    (tmp_path / "named.yaml").write_text(scenario)
-    result, folder = finished(MATRIX, "named.yaml")
+    result, folder = finished(MATRIX, f"{SCENARIO}requirements: [BR-1, BR-2]\ntest_case: WSP-TC-7\n")
     assert (result.requirements, result.test_case) == (("BR-1", "BR-2"), "WSP-TC-7")
     assert result.notes[0] == "requirements that the scenario and its criteria name: BR-1, BR-2"
     assert read_sweep_document(read_document(folder)).requirements == ("BR-1", "BR-2")

@@ -25,9 +25,16 @@ sample:
 """
 
 
-def test_drawn_and_listed_parameters_of_one_unit_are_logarithmic(load):
+def test_drawn_and_listed_parameters_of_one_unit_are_logarithmic_in_intervals_of_like_ratios(load):
     assert logarithmic_keys(load(TEXT)) == ("seed", "brake.system.wsp_valve.vent_conductance")
     assert not spaced_logarithmically(["1 m/s", "10 m/s", "100 km/h"])
+    values = bins_of_plan(load(TEXT))["brake.system.wsp_valve.vent_conductance"].values
+    edges = [value.low for value in values if isinstance(value, DrawnInterval)]
+    assert len(edges) == 10
+    assert edges[0] == 1e-8
+    for before, after in pairwise(edges):
+        assert after / before == pytest.approx(4.0**0.1, rel=0.01)
+    assert values[5].label == "2e-08 .. 2.3e-08 m3/(s Pa)"
 
 
 @pytest.mark.parametrize(
@@ -37,20 +44,10 @@ def test_like_ratios_are_logarithmic(texts):
     assert spaced_logarithmically([f"{text} km/h" for text in texts.split()])
 
 
-@pytest.mark.parametrize(
-    "texts",
-    [
-        "60 80 100 120",
-        "60 80 120 160",
-        "0 1 10",
-        "-1 -10 -100",
-        "1 100",
-        "1 10 5",
-        "1 4 16 4.5",
-        "one two three",
-        "1 1 1",
-    ],
-)
+EVEN = ["60 80 100 120", "60 80 120 160", "0 1 10", "-1 -10 -100", "1 100", "1 10 5", "1 4 16 4.5"]
+
+
+@pytest.mark.parametrize("texts", [*EVEN, "one two three", "1 1 1"])
 def test_others_are_not(texts):
     assert not spaced_logarithmically(texts.split())
 
@@ -59,16 +56,6 @@ def test_others_are_not(texts):
 def test_a_geometric_sequence_is_and_an_arithmetic_one_is_not(first, factor, count):
     assert spaced_logarithmically([repr(first * factor**k) for k in range(count)])
     assert not spaced_logarithmically([repr(first + factor * k) for k in range(1, count + 1)])
-
-
-def test_intervals_of_a_log_uniform_parameter_have_like_ratios(load):
-    values = bins_of_plan(load(TEXT))["brake.system.wsp_valve.vent_conductance"].values
-    edges = [value.low for value in values if isinstance(value, DrawnInterval)]
-    assert len(edges) == 10
-    assert edges[0] == 1e-8
-    for before, after in pairwise(edges):
-        assert after / before == pytest.approx(4.0**0.1, rel=0.01)
-    assert values[5].label == "2e-08 .. 2.3e-08 m3/(s Pa)"
 
 
 MEASURE = ReportedMeasure("initial adhesion", "g", ("adhesion",))
@@ -94,15 +81,10 @@ def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value
     over_first, over_second = (trends[group.keys[0]] for group in (first, second))
     assert (over_first.cases, over_first.mean) == ([1, 1, 1], [0.05, 0.07, 0.09])
     assert (over_second.cases, over_second.mean) == ([1, 1], [0.09, 0.09])
-
-
-def test_a_value_at_which_no_case_has_the_measure_takes_no_other_away(load):
-    plan = load(MATRIX)
-    adhesion = np.array([np.nan, np.nan, 0.07, 0.08, 0.09, 0.10])
-    rows = pa.table({"index": np.arange(6), "adhesion": adhesion})
-    sums = TrendSums(plan, bins_of_plan(plan)[plan.groups[0].keys[0]], [MEASURE])
+    # A value at which no case has the measure takes no other away.
+    rows = pa.table({"index": np.arange(6), "adhesion": [np.nan, np.nan, 0.07, 0.08, 0.09, 0.10]})
+    sums = TrendSums(plan, bins_of_plan(plan)[first.keys[0]], [MEASURE])
     sums.note(rows)
     sums.add(rows)
     (trend,) = sums.trends()
-    assert trend.cases == [0, 2, 2]
-    assert trend.mean[0] is None
+    assert (trend.cases, trend.mean[0]) == ([0, 2, 2], None)

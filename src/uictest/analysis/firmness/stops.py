@@ -76,21 +76,18 @@ class Stops:
     joint: Sequence[Drawn]
     calibrated: Sequence[bool] | None
     validity: frozenset[str]
+    _usual: dict[str, str] = field(default_factory=dict)
 
     @property
     def not_run(self) -> list[Place]:
         """The ends at which no stop could be run."""
         return [place for place, drawn in self.ends.items() if all(each.outcome == "error" for each in drawn)]
 
-    @cached_property
-    def _usual_statuses(self) -> dict[str, str]:
-        return {}
-
     def usual(self, criterion: str) -> str:
         """Return the status of a criterion at the nominal values, under most seeds."""
-        if criterion not in self._usual_statuses:
-            self._usual_statuses[criterion] = usual(self.nominal, criterion)
-        return self._usual_statuses[criterion]
+        if criterion not in self._usual:
+            self._usual[criterion] = usual(self.nominal, criterion)
+        return self._usual[criterion]
 
     def stands(self, drawn: Drawn, criterion: str) -> bool | None:
         """Return whether a verdict is the same as at the nominal values; None for one that does not count.
@@ -98,9 +95,8 @@ class Stops:
         What is required of a test does not count where there is none.
         """
         read_criterion = self.nominal[0].readings.get(criterion, criterion)
-        of_validity = read_criterion in self.validity or (
-            criterion == OUTCOME and not self._is_nominally_a_test
-        )
+        of_no_test = criterion == OUTCOME and not self._is_nominally_a_test
+        of_validity = read_criterion in self.validity or of_no_test
         if drawn.outcome == "error" or (not drawn.is_test and not of_validity):
             return None
         return drawn.status(criterion) == self.usual(criterion)

@@ -121,16 +121,12 @@ class _ConditionsOfCases:
         """Return the key of the condition that this number alone sets; None where there is none."""
         rail = self._plan.base.scenario.rail
         if key in (_FRICTION, _FRICTION_OF_CONDITION):
-            over_time = rail.friction_over_time is not None or any(map(_is_over_time, self._plan.keys))
-            covered = key == _FRICTION_OF_CONDITION and (
-                rail.friction is not None or _FRICTION in self._plan.keys
-            )
+            varied = any(f"{each}.".startswith(f"{_OVER_TIME}.") for each in self._plan.keys)
+            over_time = varied or rail.friction_over_time is not None
+            is_stated = rail.friction is not None or _FRICTION in self._plan.keys
+            covered = is_stated and key == _FRICTION_OF_CONDITION
             return None if over_time or covered else _FRICTION
         return key if key in conditions.ranges else None
-
-
-def _is_over_time(key: str) -> bool:
-    return key == _OVER_TIME or key.startswith(f"{_OVER_TIME}.")
 
 
 def _spanning_deviation(first: Deviation, second: Deviation) -> Deviation:

@@ -132,14 +132,14 @@ class FrontierSearch:
         return ParameterValue(text, content_of(text, kind_of(example, self.unit)), value_label(setting))
 
     def _frontier_scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
-        brackets_of_row = [bracket for bracket in brackets if bracket.combination == number]
-        ends = [
-            (quantity_text(each.low, self.unit), quantity_text(each.high, self.unit))
-            for each in brackets_of_row
-        ]
         flips = tuple(
-            Flip(WrittenValue(low), WrittenValue(high), each.met_at_low)
-            for each, (low, high) in zip(brackets_of_row, ends, strict=True)
+            Flip(
+                WrittenValue(quantity_text(bracket.low, self.unit)),
+                WrittenValue(quantity_text(bracket.high, self.unit)),
+                bracket.met_at_low,
+            )
+            for bracket in brackets
+            if bracket.combination == number
         )
         plan, indices = self._plan_with_values([number], [self._scanned_values[0].number])
         settings = plan.settings(indices).items()
@@ -149,9 +149,7 @@ class FrontierSearch:
 
 def _scanned_group(plan: Plan, key: str) -> tuple[int, ListedGroup]:
     for index, group in enumerate(plan.groups):
-        if group.keys != (key,):
-            continue
-        if isinstance(group, ListedGroup) and group.size > 1:
+        if group.keys == (key,) and isinstance(group, ListedGroup) and group.size > 1:
             if all(_is_continuous(plan, key, row[0].content) for row in group.rows):
                 return index, group
             raise FrontierError(f"{key} is not a quantity")

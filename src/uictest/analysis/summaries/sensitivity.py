@@ -65,10 +65,8 @@ def sobol_sensitivities(
 def _sobol_indices(rows: Numbers, seed: int) -> tuple[list[SobolIndex], list[SobolIndex]]:
     """Return first-order and total indices; `rows` holds base points: A, B, A with one column of B."""
     low, high = confidence_interval(_index_estimates, rows, seed)
-    first, total = zip(_index_estimates(rows).tolist(), low.tolist(), high.tolist(), strict=True)
-    return [SobolIndex(*each) for each in zip(*first, strict=True)], [
-        SobolIndex(*each) for each in zip(*total, strict=True)
-    ]
+    first, total = np.stack([_index_estimates(rows), low, high], axis=-1).tolist()
+    return [SobolIndex(*each) for each in first], [SobolIndex(*each) for each in total]
 
 
 def confidence_interval(

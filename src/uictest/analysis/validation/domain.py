@@ -61,13 +61,12 @@ def conditions_of(parts: Mapping[str, EffectivePart]) -> Conditions:
     used = [part for role, part in parts.items() if role.partition(".")[0] not in _JUDGING_ROLES]
     parameters = [each for part in used for each in part.parameters if each.key not in _NO_CONDITIONS]
     beyond_friction = [each for each in parameters if not _describes_friction(each.key)]
+    numbers = {each.key: (float(each.value), each.unit) for each in beyond_friction if _is_number(each)}
+    ranges = {key: Range(value, value, unit) for key, (value, unit) in numbers.items()}
     return Conditions(
         names={part.key: part.name for part in used if part.name},
         settings={each.key: str(each.value) for each in beyond_friction if not _is_number(each)},
-        ranges={
-            **{each.key: _single_value_range(each) for each in beyond_friction if _is_number(each)},
-            "rail.friction": _friction_range(parameters),
-        },
+        ranges={**ranges, "rail.friction": _friction_range(parameters)},
     )
 
 
@@ -90,11 +89,6 @@ def _describes_friction(key: str) -> bool:
 
 def _is_number(parameter: Parameter) -> bool:
     return isinstance(parameter.value, float | int) and not isinstance(parameter.value, bool)
-
-
-def _single_value_range(parameter: Parameter) -> Range:
-    value = float(parameter.value)
-    return Range(value, value, parameter.unit)
 
 
 _ROUNDING: Final = 1e-9

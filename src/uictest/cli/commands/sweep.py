@@ -16,7 +16,7 @@ from uictest.cli import options
 from uictest.cli.cases import malformed
 from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, append_summary, data, message, terminal_width, warn_of_implausible
-from uictest.cli.progress import TerminalObserver
+from uictest.cli.run_display import TerminalObserver
 from uictest.core import files
 from uictest.plans import sweeps
 from uictest.report import counted, printable

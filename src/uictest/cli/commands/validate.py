@@ -13,7 +13,7 @@ from uictest.analysis import validation
 from uictest.cli import options
 from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message, terminal_width, worst
-from uictest.cli.progress import TerminalObserver
+from uictest.cli.run_display import TerminalObserver
 
 Files = Annotated[
     list[Path],

@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import Final
 
 from uictest.controllers import ResponseTimes
-from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import (
     MEASURES,
     STOP_COLUMNS,
@@ -165,7 +164,6 @@ def _may_be_biased(verdict: Verdict, bias: float) -> bool:
     return at_bound or abs(verdict.margin) < bias * abs(verdict.value)
 
 
-@once_per_object
 def _column_definition(profiles: tuple[scenario.Criteria, ...]) -> dict[str, float]:
     """Return the definitions that columns use: those of the first criterion that has them, else the defaults.
 

@@ -9,7 +9,7 @@ from itertools import groupby, pairwise
 from typing import NamedTuple
 
 from uictest.core.measures import MEASURES, Course, Measure, StopMeasures, Wheelsets
-from uictest.core.units import all_in_unit, in_unit, to_12_digits, value_text, values_text, with_unit
+from uictest.core.units import all_in_unit, as_written, in_unit, value_text, values_text, with_unit
 from uictest.judging.evaluation.verdict import Sensitivity, Status, VerdictInterval
 from uictest.plans import scenario
 
@@ -82,8 +82,7 @@ def bounds_of(criterion: scenario.Criterion) -> Bounds:
     """Return the bounds of a criterion in the unit of its measure."""
     unit = criterion.unit
     lower, upper = (
-        None if bound is None else to_12_digits(in_unit(bound, unit))
-        for bound in (criterion.lower, criterion.upper)
+        None if bound is None else as_written(bound, unit) for bound in (criterion.lower, criterion.upper)
     )
     return Bounds(lower, upper, criterion.strict, unit)
 

@@ -163,6 +163,10 @@ class Firmness(VerdictFirmness):
     calibrated_by: tuple[str, ...] = ()
     without_range: tuple[str, ...] = ()
 
+    def shows(self, outcome: str) -> bool:
+        """Return whether this very outcome is shown to be firm."""
+        return (self.nominal, self.status) == (outcome, "firm")
+
 
 WrittenFirmness = Annotated[
     Firmness,

@@ -78,6 +78,17 @@ def required(*names: str) -> BeforeValidator:
     return BeforeValidator(complete)
 
 
+def ignored(*names: str) -> BeforeValidator:
+    """Return the validator of a form that has these fields for readers alone: they follow from the others."""
+
+    def without(content: object) -> object:
+        if isinstance(content, Mapping):
+            return {name: value for name, value in content.items() if name not in names}
+        return content
+
+    return BeforeValidator(without)
+
+
 class BuiltWhenUsed:
     """Annotation of what most documents lack: pydantic builds its form when one has it, not before."""
 
@@ -126,12 +137,15 @@ Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
 
 
 def _numbers_by_column(content: object, known: Collection[str]) -> dict[str, float]:
-    """Return the numbers of a document in these columns; null as NaN."""
-    if not isinstance(content, Mapping) or set(content) != set(known):
+    """Return the numbers of a document in these columns; NaN for null and for a column that it lacks.
+
+    A measure that was added to the program is not available in the documents of before.
+    """
+    if not isinstance(content, Mapping) or not content or not set(content) <= set(known):
         raise ValueError(f"Input should have the columns {', '.join(known)}")
     if not all(value is None or _is_number(value) for value in content.values()):
         raise ValueError("Input should hold numbers only")
-    return {name: math.nan if (value := content[name]) is None else value for name in known}
+    return {name: math.nan if (value := content.get(name)) is None else value for name in known}
 
 
 def _is_number(value: object) -> bool:

@@ -119,7 +119,7 @@ def verdict_by(
     criterion: scenario.Criterion, bounds: Bounds, decider_of: DeciderOf, *, detail: Detail
 ) -> Verdict:
     """Return the verdict of a criterion that applies, without definitions."""
-    stated, decide_with = criterion.definition.stated(), decider_of(criterion, bounds)
+    stated, decide_with = criterion.definition.stated, decider_of(criterion, bounds)
     decision = decide_with(stated, explained=True)
     verdict = verdict_of(criterion, bounds, decision)
     explains = detail == "full" and decision.status != "inconclusive"

@@ -305,7 +305,7 @@ def _judge_over_stops(
 
         return decide_with
 
-    bounds, stated = bounds_of(criterion), criterion.definition.stated()
+    bounds, stated = bounds_of(criterion), criterion.definition.stated
     detail: Detail = "full" if any(each is None for each in without_value) else "status"
     verdict = verdict_by(criterion, bounds, decider_of, detail=detail)
     pairs = zip(without_value, stops, strict=True)

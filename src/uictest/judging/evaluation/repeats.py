@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from statistics import median, quantiles
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
+from pydantic import Field, SerializerFunctionWrapHandler, WrapSerializer
 
 from uictest.core import statistics as proportions
 from uictest.judging.evaluation.json_values import (
@@ -18,6 +19,7 @@ from uictest.judging.evaluation.json_values import (
     OptionalNumber,
     Outcome,
     absent_if_empty,
+    ignored,
     json_form,
     required,
 )
@@ -151,12 +153,9 @@ def seeds_text(seeds: Sequence[int]) -> str:
 
 def _consecutive_ranges(seeds: Sequence[int]) -> Iterator[tuple[int, int]]:
     """Yield the first and the last seed of each range of consecutive seeds."""
-    first: int | None = None
-    for index, seed in enumerate(seeds):
-        first = seed if first is None else first
-        if index + 1 == len(seeds) or seeds[index + 1] != seed + 1:
-            yield first, seed
-            first = None
+    for _, neighbours in groupby(enumerate(seeds), lambda pair: pair[1] - pair[0]):
+        consecutive = [seed for _, seed in neighbours]
+        yield consecutive[0], consecutive[-1]
 
 
 def _range_text(first: int, last: int) -> str:
@@ -191,9 +190,6 @@ def column_medians(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
     return {name: float("nan") if spread is None else spread.median for name, spread in columns.items()}
 
 
-_DERIVED: Final = ("passed", "share", "interval")
-
-
 def _with_derived(repeats: Repeats, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
     form: dict[str, Any] = write(repeats)
     stops = form.pop("stops")
@@ -202,15 +198,9 @@ def _with_derived(repeats: Repeats, write: SerializerFunctionWrapHandler) -> dic
     return {"rule": repeats.rule, **share, **json_form(derived), "stops": stops}
 
 
-def _without_derived(content: object) -> object:
-    if isinstance(content, Mapping):
-        return {name: value for name, value in content.items() if name not in _DERIVED}
-    return content
-
-
 WrittenRepeats = Annotated[
     Repeats,
-    BuiltWhenUsed(Annotated[Repeats, WrapSerializer(_with_derived), BeforeValidator(_without_derived)]),
+    BuiltWhenUsed(Annotated[Repeats, WrapSerializer(_with_derived), ignored("passed", "share", "interval")]),
 ]
 """In JSON the number of stops that passed, their share and its interval precede the stops, for readers
 that need no more."""

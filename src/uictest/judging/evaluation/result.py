@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import Annotated, Any, Final
 
 from pydantic import (
-    BeforeValidator,
     ConfigDict,
     Field,
     PlainSerializer,
@@ -32,6 +31,7 @@ from uictest.judging.evaluation.json_values import (
     Outcome,
     absent_if_empty,
     from_json_form,
+    ignored,
     json_form,
     required,
     to_json_form,
@@ -119,12 +119,8 @@ def over_stops_of_train(places: Sequence[CarInTrain | None]) -> CarInTrain | Non
 
 
 def _largest_forces(forces: Iterable[CouplerForces | None]) -> CouplerForces | None:
-    with_forces = [each for each in forces if each is not None]
-    if not with_forces:
-        return None
-    return CouplerForces(
-        max(each.largest_pull_n for each in with_forces), max(each.largest_push_n for each in with_forces)
-    )
+    ends = [(each.largest_pull_n, each.largest_push_n) for each in forces if each is not None]
+    return CouplerForces(*map(max, zip(*ends, strict=True))) if ends else None
 
 
 Found = str | tuple[float, float] | None
@@ -165,10 +161,6 @@ class DomainOfValidity:
     outside: tuple[Deviation, ...] = ()
 
 
-def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
-    return {role: part.id for role, part in parts.items()}
-
-
 def _parts_by_role(part_ids: object, info: ValidationInfo) -> dict[str, EffectivePart]:
     """Return the parts that a case names by their ids; the context of the validation holds all by id."""
     if not isinstance(part_ids, Mapping):
@@ -180,7 +172,9 @@ def _parts_by_role(part_ids: object, info: ValidationInfo) -> dict[str, Effectiv
 
 
 NamedParts = Annotated[
-    Mapping[str, EffectivePart], PlainValidator(_parts_by_role), PlainSerializer(_part_ids)
+    Mapping[str, EffectivePart],
+    PlainValidator(_parts_by_role),
+    PlainSerializer(lambda parts: {role: part.id for role, part in parts.items()}),
 ]
 """In JSON a case names its parts by their ids: the document holds each part once."""
 
@@ -292,15 +286,12 @@ class CaseResult:
     @property
     def is_firm(self) -> bool:
         """Whether it was asked how firm the outcome is, and this very outcome is shown to be."""
-        own = self.firmness
-        return own is not None and (own.nominal, own.status) == (self.outcome, "firm")
+        return self.firmness is not None and self.firmness.shows(self.outcome)
 
     @property
     def lacks_firmness(self) -> bool:
         """Whether, with `strict`, it was asked how firm the outcome is, and it is not shown to be."""
-        if self.firmness is None or not self.strict:
-            return False
-        return not self.is_firm
+        return self.strict and self.firmness is not None and not self.is_firm
 
     @property
     def drawn_stop(self) -> CaseResult:
@@ -357,12 +348,6 @@ def _written_form(result: CaseResult, write: SerializerFunctionWrapHandler) -> d
     }
 
 
-def _without_statements(content: object) -> object:
-    if isinstance(content, Mapping):
-        return {name: value for name, value in content.items() if name not in _STATEMENTS}
-    return content
-
-
 def _without_empty_fields(form: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in form.items() if value or name not in _OF_SOME}
 
@@ -371,7 +356,7 @@ def _without_empty_fields(form: Mapping[str, Any]) -> dict[str, Any]:
 WrittenCaseResult = Annotated[
     CaseResult,
     required("criteria", "measures", "wheelsets"),
-    BeforeValidator(_without_statements),
+    ignored(*_STATEMENTS),
     WrapSerializer(_written_form),
 ]
 """A result as documents hold it; what its verdicts come to stands there for readers that need no more."""
@@ -404,9 +389,20 @@ def cases_of(content: object, parts: Mapping[str, EffectivePart], place: str = "
     """Return the results whose JSON form is `content`; `parts` are those they may name, by id.
 
     `place` is where the content stands in its document. Raises ValueError where a case lacks or adds a field,
-    or names another part.
+    names another part, or has other columns of measures than the rest.
     """
-    return from_json_form(_CASES, content, place=place, context=parts)
+    results = from_json_form(_CASES, content, place=place, context=parts)
+    _require_same_columns(content, place)
+    return results
+
+
+def _require_same_columns(cases: Any, place: str) -> None:
+    # A document of an older program lacks a column in every stop, a damaged one in some.
+    stops = [stop for case in cases for stop in (case, *(case.get("repeats") or {}).get("stops", ()))]
+    of_stops = {frozenset(stop["measures"]) for stop in stops if stop.get("measures")}
+    of_wheelsets = {frozenset(columns) for stop in stops for columns in stop.get("wheelsets", ())}
+    if len(of_stops) > 1 or len(of_wheelsets) > 1:
+        raise ValueError(f"{place}: all stops should have the same columns of measures")
 
 
 def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
@@ -420,17 +416,13 @@ def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
     try:
         envelope.require(content, envelope.RESULT, "run")
         results = cases_of(content["cases"], parts_of(content))
-        _require_distinct(results)
     except KeyError as error:
         raise ValueError(f"no {error}") from error
-    return results
-
-
-def _require_distinct(results: Iterable[CaseResult]) -> None:
     # Readers look cases up by id: of two, one would be compared and the other never seen.
     counts = Counter(result.id for result in results)
     if repeated := [case_id for case_id, count in counts.items() if count > 1]:
         raise ValueError(f"two cases have the id {repeated[0]!r}")
+    return results
 
 
 def to_json(content: Mapping[str, Any]) -> str:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
+from pydantic import Field, SerializerFunctionWrapHandler, WrapSerializer
 
-from uictest.judging.evaluation.json_values import Number, OptionalNumber, absent_if_empty
+from uictest.judging.evaluation.json_values import Number, OptionalNumber, absent_if_empty, ignored
 
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """not_applicable: the criterion says nothing of such a stop. inconclusive: data to judge it are missing."""
@@ -76,13 +75,7 @@ def _with_flips(sensitivity: Sensitivity, write: SerializerFunctionWrapHandler) 
     return {**write(sensitivity), "flips": sensitivity.flips}
 
 
-def _without_flips(content: object) -> object:
-    if isinstance(content, Mapping):
-        return {key: value for key, value in content.items() if key != "flips"}
-    return content
-
-
-WrittenSensitivity = Annotated[Sensitivity, WrapSerializer(_with_flips), BeforeValidator(_without_flips)]
+WrittenSensitivity = Annotated[Sensitivity, WrapSerializer(_with_flips), ignored("flips")]
 """In JSON `flips` is written with the intervals, for readers that need no more."""
 
 

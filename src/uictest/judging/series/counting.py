@@ -111,10 +111,9 @@ def _speed_mismatch_reason(measures: Mapping[str, float], nominal_kmh: float, to
     return f"initial speed is {initial_kmh:.4g} km/h, nominal {nominal_kmh:g} +- {tolerance_kmh:g} km/h"
 
 
-def counts_of(stops: Sequence[SeriesStop], role: Role) -> StopCounts:
-    """Return the number of stops of a role, and of those that count."""
-    of_role = [stop for stop in stops if stop.role == role]
-    return StopCounts(len(of_role), sum(stop.counts for stop in of_role))
+def counts_of(stops: Sequence[SeriesStop]) -> StopCounts:
+    """Return the number of stops, and of those that count."""
+    return StopCounts(len(stops), sum(stop.counts for stop in stops))
 
 
 def not_counted(stops: Sequence[SeriesStop]) -> tuple[UncountedStop, ...]:
@@ -132,14 +131,10 @@ def with_relations(series: Series, stops: Sequence[SeriesStop]) -> list[SeriesSt
     A wet stop that misses one does not pass any more; of one that would pass otherwise, but lacks data for
     one, it is not known.
     """
-    criteria = [
-        criterion
-        for profile in series.criteria
-        for criterion in profile.criteria
-        if criterion.scope == "stop" and criterion.of_dry_stop
-    ]
-    for criterion in criteria:
-        stops = [_with_relation(series, criterion, stop, stops) for stop in stops]
+    for profile in series.criteria:
+        for criterion in profile.criteria:
+            if criterion.scope == "stop" and criterion.of_dry_stop:
+                stops = [_with_relation(series, criterion, stop, stops) for stop in stops]
     return list(stops)
 
 
@@ -177,10 +172,7 @@ def _percent_of_dry(criterion: Criterion, stop: SeriesStop, stops: Sequence[Seri
     column = MEASURES[criterion.measure].column
     assert column is not None
     figure = of_stop(column.name)
-    dry = tuple(
-        each.figures
-        for each in stops
-        if each.role == "dry" and each.counts and each.speed_kmh == stop.speed_kmh
-    )
+    at_speed = [each for each in stops if each.speed_kmh == stop.speed_kmh]
+    dry = tuple(each.figures for each in at_speed if each.role == "dry" and each.counts)
     mean = SpeedStops(stop.speed_kmh * KILOMETRE_PER_HOUR, dry, ()).dry_mean(figure)
     return 100.0 * figure(stop.figures) / mean

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, Rail, SeriesValue, SpeedStops
 from uictest.core.units import KILOMETRE_PER_HOUR, in_unit, value_text
 from uictest.judging import evaluation
-from uictest.judging.evaluation import CaseResult, Outcome
+from uictest.judging.evaluation import CaseResult
 from uictest.judging.series.counting import (
     SeriesStop,
     applies,
@@ -31,15 +31,20 @@ def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
 
     Raises ValueError for a case that the series does not have.
     """
-    _require_known(series, cases)
+    known = {case.id for case in series.cases}
+    if unknown := [each.case.id for each in cases if each.case.id not in known]:
+        raise ValueError(f"the series {series.id!r} has no case {unknown[0]!r}")
     tolerance = round(in_unit(series.file.speed_tolerance, "km/h"), 9)
     stops = with_relations(series, observed_stops(cases, tolerance))
     observed = _ObservedSeries(series, stops)
+    too_few = "; ".join(dict.fromkeys(observed.shortages()))
     verdicts = tuple(
-        _verdict_of(series, criterion, profile, observed.judged_by(criterion), stops, observed.too_few)
+        _verdict_of(series, criterion, profile, observed.judged_by(criterion), stops, too_few)
         for profile, criterion in series.judged_criteria
     )
-    outcome, reason = _series_outcome(stops, verdicts)
+    outcome, reason = evaluation.outcome_of(each.verdict for each in verdicts)
+    if failed := [stop for stop in stops if stop.not_counted == "error"]:
+        outcome, reason = "error", f"{len(failed)} of {len(stops)} stops failed to run; {failed[0].reason}"
     return SeriesResult(
         id=series.id,
         file=series.path.as_posix(),
@@ -76,12 +81,6 @@ def judge_results(series: Series, results: Sequence[CaseResult]) -> SeriesResult
     return judge_series(series, cases)
 
 
-def _require_known(series: Series, cases: Sequence[SeriesCase]) -> None:
-    known = {case.id for case in series.cases}
-    if unknown := [each.case.id for each in cases if each.case.id not in known]:
-        raise ValueError(f"the series {series.id!r} has no case {unknown[0]!r}")
-
-
 @dataclass(frozen=True)
 class _ObservedSeries:
     """The stops of a series by their initial speed and kind of rail."""
@@ -115,9 +114,8 @@ class _ObservedSeries:
 
     def judged_by(self, criterion: Criterion) -> list[SpeedStops]:
         """Return of these the ones that a criterion applies to, with the dry ones as their reference."""
-        return [
-            group for group in self._stops_by_speed(self._applicable_stops(criterion, "wet")) if group.wet
-        ]
+        groups = self._stops_by_speed(self._applicable_stops(criterion, "wet"))
+        return [group for group in groups if group.wet]
 
     @property
     def bypassed_k_wet(self) -> SeriesValue | None:
@@ -142,19 +140,14 @@ class _ObservedSeries:
             groups.append(SpeedStops(speed * KILOMETRE_PER_HOUR, dry, wet, rail))
         return groups
 
-    @property
-    def too_few(self) -> str:
-        """Why there are too few stops for a verdict; empty where there are enough."""
-        return "; ".join(dict.fromkeys(self._shortages()))
-
     def speed_result(self, speed: SpeedStops) -> SpeedResult:
         """Return the counts and measures of the stops from one speed."""
         kmh = round(speed.speed / KILOMETRE_PER_HOUR, 9)
         return SpeedResult(
             speed_kmh=kmh,
             rail=speed.rail,
-            dry=counts_of(self._stops_from(kmh, "dry"), "dry"),
-            wet=counts_of(self._stops_from(kmh, "wet", speed.rail), "wet"),
+            dry=counts_of(self._stops_from(kmh, "dry")),
+            wet=counts_of(self._stops_from(kmh, "wet", speed.rail)),
             measures={name: each.of_speed(speed, self.confidence) for name, each in SERIES_MEASURES.items()},
         )
 
@@ -162,25 +155,17 @@ class _ObservedSeries:
         at_speed = [stop for stop in self.stops if (stop.speed_kmh, stop.role) == (speed, role)]
         return [stop for stop in at_speed if rail in ("", stop.rail)]
 
-    def _shortages(self) -> Iterator[str]:
+    def shortages(self) -> Iterator[str]:
+        """Yield the reasons why there are too few stops for a verdict; none where there are enough."""
         needed = self.series.file.valid_stops
         for speed, rail in self.places:
-            dry, wet = (
-                counts_of(self._stops_from(speed, "dry"), "dry"),
-                counts_of(self._stops_from(speed, "wet", rail), "wet"),
-            )
+            dry = counts_of(self._stops_from(speed, "dry"))
+            wet = counts_of(self._stops_from(speed, "wet", rail))
             if not dry.counted:
                 yield f"none of {dry.run} dry stops from {speed:g} km/h counts"
             if wet.share < needed:
                 place = place_text(speed, rail)
                 yield f"{wet.counted} of {wet.run} wet stops from {place} count, {needed.text} must"
-
-
-def _series_outcome(stops: Sequence[SeriesStop], verdicts: Sequence[SeriesVerdict]) -> tuple[Outcome, str]:
-    failed = [stop for stop in stops if stop.not_counted == "error"]
-    if failed:
-        return "error", f"{len(failed)} of {len(stops)} stops failed to run; {failed[0].reason}"
-    return evaluation.outcome_of(each.verdict for each in verdicts)
 
 
 def _verdict_of(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Annotated, Any, Final
 
 from pydantic import (
@@ -42,9 +43,11 @@ def _with_nulls(value: object, write: SerializerFunctionWrapHandler) -> dict[str
 
 
 def _with_nan(content: object) -> object:
+    """Return an estimate, or a value that has one, with NaN for the numbers that it lacks."""
     if isinstance(content, Mapping):
         return {
-            name: math.nan if value is None and name in _NUMBERS else value for name, value in content.items()
+            name: math.nan if value is None and name in _NUMBERS else _with_nan(value)
+            for name, value in content.items()
         }
     return content
 
@@ -52,14 +55,7 @@ def _with_nan(content: object) -> object:
 WrittenEstimate = Annotated[Estimate, WrapSerializer(_with_nulls), BeforeValidator(_with_nan)]
 """An estimate whose missing numbers are null in JSON."""
 
-
-def _read_value(content: object) -> object:
-    if isinstance(content, Mapping) and isinstance(content.get("estimate"), Mapping):
-        return {**content, "estimate": _with_nan(content["estimate"])}
-    return content
-
-
-WrittenValue = Annotated[SeriesValue, WrapSerializer(_with_nulls), BeforeValidator(_read_value)]
+WrittenValue = Annotated[SeriesValue, WrapSerializer(_with_nulls), BeforeValidator(_with_nan)]
 """The value of a measure of series; what has no number is null in JSON."""
 
 
@@ -71,11 +67,7 @@ def _case_named(name: object, info: ValidationInfo) -> CaseResult:
     return cases[name]
 
 
-def _id_of(case: CaseResult) -> str:
-    return case.id
-
-
-NamedCase = Annotated[CaseResult, PlainValidator(_case_named), PlainSerializer(_id_of)]
+NamedCase = Annotated[CaseResult, PlainValidator(_case_named), PlainSerializer(attrgetter("id"))]
 """In JSON a series names its cases by their ids."""
 
 
@@ -220,6 +212,11 @@ class SeriesResult:
         return StopCounts(sum(each.run for each in wet), sum(each.counted for each in wet))
 
     @property
+    def strict(self) -> bool:
+        """Whether its cases are met only if nothing is left open; then it is, too."""
+        return any(each.case.strict for each in self.cases)
+
+    @property
     def as_expected(self) -> bool:
         """Whether it came out as expected, by the criteria that are named for it."""
         return is_expected(self.outcome, (each.verdict for each in self.criteria), self.expect)
@@ -227,31 +224,26 @@ class SeriesResult:
     @property
     def unsettled(self) -> tuple[tuple[str, Verdict], ...]:
         """What keeps a strict series from being met: the id of a case, or of the series, and the verdict."""
-        strict = any(each.case.strict for each in self.cases)
-        own = [(self.id, each.verdict) for each in self.criteria if strict and not each.verdict.settled]
+        own = [(self.id, each.verdict) for each in self.criteria if self.strict and not each.verdict.settled]
         judged = [each.case for each in self.cases if each.role != "bypassed"]
         return (*own, *((case.id, verdict) for case in judged for verdict in case.unsettled))
 
     @property
     def met(self) -> bool:
         """Whether it is as expected and, if its cases are `strict`, firm and settled in every verdict."""
-        strict = any(each.case.strict for each in self.cases)
         uses_allowance = self.expect.is_allowance and self.outcome != "pass"
-        is_open = strict and (self.expect.lacks_names or uses_allowance)
+        is_open = self.strict and (self.expect.lacks_names or uses_allowance)
         return self.as_expected and not (self.unsettled or self.lacks_firmness or is_open)
 
     @property
     def is_firm(self) -> bool:
         """Whether it was asked how firm the outcome is, and this very outcome is shown to be."""
-        own = self.firmness
-        return own is not None and (own.nominal, own.status) == (self.outcome, "firm")
+        return self.firmness is not None and self.firmness.shows(self.outcome)
 
     @property
     def lacks_firmness(self) -> bool:
         """Whether, if its cases are `strict`, it was asked how firm it is, and it is not shown to be."""
-        if self.firmness is None or not any(each.case.strict for each in self.cases):
-            return False
-        return not self.is_firm
+        return self.strict and self.firmness is not None and not self.is_firm
 
 
 _FIELDS: Final = frozenset({"parts", "cases", "series"})

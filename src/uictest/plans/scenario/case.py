@@ -260,7 +260,6 @@ _NAMED_BY: Final = ("part", "kind", "value", "wheelset", "at", "until")
 
 
 def _name_of_fault(node: Node) -> str:
-    """Return the name of a fault in ids, such as `speed-sensor-stuck-2-3s`."""
     named = (node.get(key) for key in _NAMED_BY) if isinstance(node, Map) else ()
     return "-".join(each.text for each in named if isinstance(each, Scalar))
 

@@ -204,7 +204,6 @@ def _combined_axes(matrix: list[Axis], zipped: list[Axis], *, alone: bool) -> li
 
 
 def _one_at_a_time(axes: list[Axis]) -> Iterator[Variant]:
-    """The first value of every axis, and each further value with the first ones of the others."""
     first = tuple(axis[0] for axis in axes)
     yield first
     for index, axis in enumerate(axes):

@@ -45,7 +45,6 @@ def read_description(path: Path) -> FmuDescription:
 
 
 def _description_in(path: Path) -> FmuDescription:
-    """Return the description of an FMU. Raises any exception for a file that is not an FMU."""
     from xml.etree import ElementTree  # which the process that asks does without
 
     with zipfile.ZipFile(path) as archive:

@@ -162,7 +162,6 @@ def _merged_definitions(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _used_definitions(schema: dict[str, Any]) -> dict[str, Any]:
-    """Return the definitions that a schema refers to, of those that it lists for every kind of quantity."""
     definitions = schema["definitions"]
     needed: dict[str, Any] = {}
     waiting = list(_referenced_names({**schema, "definitions": None}, items=True))
@@ -175,7 +174,6 @@ def _used_definitions(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def _referenced_names(node: Any, *, items: bool = False) -> Iterator[str]:
-    """Yield the definitions that a schema refers to; those of the items of lists only if asked for."""
     if isinstance(node, dict):
         if isinstance(node.get("$ref"), str):
             yield node["$ref"].rpartition("/")[2]

@@ -223,7 +223,6 @@ class _Loader:
         return tree
 
     def _cases(self, file: _ScenarioFile, variant: Variant) -> list[LoadedCase]:
-        """Return the case of a variant; of a train those of its cars, which name each other."""
         tree = self._varied(file.tree, variant)
         cars = resolved_cars(file.path, tree, self.parts)
         given = {each.key: Entry(each.location, each.values[0]) for each in self.overrides}
@@ -249,7 +248,6 @@ class _Loader:
         return loaded
 
     def _varied(self, base: Map, variant: Variant) -> Map:
-        """The tree with the values of one case; settings that fail are reported and skipped."""
         tree = base
         # From the outside in, so that a part is named before something inside it is changed.
         for setting in sorted(variant, key=lambda setting: setting.key.count(".")):

@@ -265,7 +265,6 @@ class Scenario(TestFile):
         yield from endless_stop(self)
 
     def _delay_too_long(self) -> Iterator[Inconsistency]:
-        """Yield a switching delay of the valve that is longer than the rig remembers commands."""
         cycle, step = self.controller.cycle_time, self.simulation.time_step
         for key, delay in distinct_values(self, "wsp_valve.switching_delay"):
             if round(delay / step) >= (LONGEST_DELAY_CYCLES + 1) * round(cycle / step):
@@ -276,7 +275,6 @@ class Scenario(TestFile):
                 )
 
     def _step_too_long(self) -> Iterator[Inconsistency]:
-        """Yield a step that cannot follow the car on its springs, or the air after its valves."""
         system = self.brake.system
         smallest_tank = min(system.tank.volume, self.tank_volume_with_caliper)
         valves = [
@@ -317,7 +315,6 @@ class Scenario(TestFile):
             )
 
     def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
-        """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished."""
         profile_of: dict[str, str] = {}
         if all(profile.name != RIG_CHECKS for profile in self.criteria):
             profile_of |= {criterion.id: RIG_CHECKS for criterion in rig_checks().criteria}

@@ -114,7 +114,6 @@ class Parts:
         return ResolvedPart(self._with_origin(part, generations, model), (*documents, *programs))
 
     def _validated(self, tree: Map, model: Any, key: Key) -> tuple[Any, tuple[Document, ...]]:
-        """The part that a tree describes, and the files of the programs that it names."""
         if folder_of(model) != "controllers":
             return validated(model, plain(tree), tree, key), ()
         programs = program_files(tree, self.files, dotted(key))
@@ -177,7 +176,6 @@ def is_path(reference: str) -> bool:
 
 
 def _registered_reference(reference: Scalar) -> Map:
-    """Return the controller of an installed package as a part; the package is not imported."""
     name = reference.text
     location = Location(Document(f"installed:{name}", reference.location.document.folder, ""))
     texts = {"schema": "uictest/controller/1", "registered": name}

@@ -231,7 +231,6 @@ _CarProblem = tuple[int, Inconsistency]
 
 
 def _foreign_to_trains(cars: Sequence[Scenario]) -> Iterator[_CarProblem]:
-    """Yield controllers that do not keep the leading car's cycle, and programs that cannot run together."""
     cycle = cars[0].controller.cycle_time
     for index, car in enumerate(cars):
         own = car.controller.cycle_time
@@ -271,7 +270,6 @@ def program_problems(programs: Sequence[ControllerProgram | None]) -> Iterator[_
 
 
 def _impossible_couplers(cars: Sequence[Scenario]) -> Iterator[_CarProblem]:
-    """Yield couplers too stiff for the step with the lightest car, and too short for two neighbours."""
     coupler, step = cars[0].coupler or Coupler(), cars[0].simulation.time_step
     steadiness = [_steadiness(car, coupler) for car in cars]
     if (worst := max(steadiness)) > coupler.largest_steadiness:
@@ -385,7 +383,6 @@ def _with_entry_number(diagnostic: Diagnostic, entries: dict[_Position, int]) ->
 
 
 def _entry_of_position(tree: Map) -> dict[_Position, int]:
-    """Return the entry of `train`, from 0, in which each position of a file lies."""
     train = tree.get("train")
     entries: dict[_Position, int] = {}
     for number, item in enumerate(train.items if isinstance(train, List) else ()):

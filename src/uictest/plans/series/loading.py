@@ -126,7 +126,6 @@ def _resolved_profiles(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], t
 
 
 def _variants_of_file(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
-    """Return the values of each series of a file; one empty variant where nothing varies."""
     for each in of_command_line:
         if len(each.values) == 1:
             tree = without_axis(tree, each.key)
@@ -251,7 +250,6 @@ def plan_of_series(planned: Series) -> ValidationPlan:
 def _planned_comparisons(
     tree: Map, file: ValidationFile, files: Files, overrides: Sequence[Override]
 ) -> Iterator[PlannedComparison]:
-    """Yield the comparisons of all entries. Raises ScenarioErrors with the errors of all."""
     nodes = tree.get("stops")
     assert isinstance(nodes, List)
     read = read_each(lambda node: read_entry(node, "scenario", files, last=overrides), nodes.items)

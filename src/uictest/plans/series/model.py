@@ -35,7 +35,6 @@ DEFAULT_CRITERIA: Final = "uictest-wsp"
 
 
 def _entries(content: object) -> object:
-    """Return the entries of a list, or of one entry alone; a text is the scenario of an entry."""
     entries = content if isinstance(content, list | tuple) else (content,)
     return tuple({"scenario": each} if isinstance(each, str) else each for each in entries)
 

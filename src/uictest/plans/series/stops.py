@@ -189,7 +189,6 @@ def _train_size(case: Case) -> str:
 
 
 def _differences_of_trains(dry: Case, wet: Case) -> Iterator[str]:
-    """Yield the quoted keys of values that differ between two stops and must be the same, car by car."""
     for number, (one, other) in enumerate(zip(dry.cars, wet.cars, strict=True), start=1):
         of_car = "" if wet.train is None else f" of car {number}"
         for key in _OF_TRAIN:
@@ -297,7 +296,6 @@ class StopReader(NamedTuple):
 
 
 def _unsuitable_stops(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
-    """Yield stops that a series cannot have: a repeated id, a stop cut short, a dry stop on another rail."""
     seen: set[str] = set()
     for stop, entry in read:
         location, scenario, shown = entry.node.location, stop.case.scenario, quoted(stop.case.id)
@@ -331,7 +329,6 @@ def _drawn_twice(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnost
 
 
 def _seeds_of_stop(stop: PlannedStop) -> range:
-    """Return the seeds of a stop; none of a recorded one."""
     scenario = stop.case.scenario
     return range(scenario.seed, scenario.seed + (0 if stop.recorded else scenario.repeat))
 

@@ -288,7 +288,6 @@ def numbers_without_range(scenario: Scenario) -> list[str]:
 
 
 def _sources_at(scenario: Scenario, key: Key) -> Mapping[str, Source]:
-    """Return the sources of the part that a number stands in; none for one of the scenario itself."""
     found: Any = scenario
     sources: Mapping[str, Source] = {}
     for element in key:

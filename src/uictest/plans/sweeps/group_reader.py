@@ -99,7 +99,6 @@ class GroupReader:
         return not unequal
 
     def _rows(self, columns: Sequence[_Column]) -> list[_Row]:
-        """Return the rows that the scenario accepts, and report the first of those that it does not."""
         settings = [
             Setting(key, Entry(entry.key, node), 1) for key, entry, nodes in columns for node in nodes
         ]
@@ -201,7 +200,6 @@ class GroupReader:
         return tuple(value for (value,) in rows)
 
     def _kind_of_unit(self, key: str, entry: Entry, unit: str) -> str:
-        """Return the kind of quantity that is drawn, empty for plain numbers. Raises ScenarioErrors."""
         location = self._base.place_of(key)
         if is_free(*location) and not unit:
             return ""

@@ -284,7 +284,6 @@ def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
 
 
 def _nominal_value(scenario: Scenario, key: str) -> Any:
-    """Return a value of the scenario; where a wheelset has none of its own, the regular one."""
     value = value_at(scenario, key)
     if value is None and key.startswith(_OF_WHEELSETS):
         number, _, name = key.removeprefix(_OF_WHEELSETS).partition(".")

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from uictest.core.recording import TIME
-from uictest.core.units import in_unit, to_12_digits, value_text
+from uictest.core.units import as_written, in_unit, value_text
 from uictest.judging.evaluation import Bounds, Status, Verdict
 from uictest.plans.scenario import Case, brake_deceleration, check_id
 from uictest.recorded.field_data.channel_map import of_wheelsets
@@ -39,8 +39,8 @@ def record_verdicts(case: Case, stop: RecordedStop) -> Iterator[Verdict]:
     for name, (unit, find) in _CHECKS.items():
         tolerance = getattr(tolerances, name)
         number, words = find(case, stop)
-        value = None if number is None else to_12_digits(in_unit(number, unit))
-        bounds = Bounds(None, to_12_digits(in_unit(tolerance, unit)))
+        value = None if number is None else as_written(number, unit)
+        bounds = Bounds(None, as_written(tolerance, unit))
         margin = None if value is None else bounds.margin(value)
         if value is not None:
             words = "" if bounds.hold(value) else f"{words}, tolerance {tolerance.text}"

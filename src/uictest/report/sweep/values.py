@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
 from pydantic import ConfigDict, PlainSerializer, PlainValidator, TypeAdapter
 
-from uictest.core.units import in_unit, to_12_digits
+from uictest.core.units import as_written
 
 if TYPE_CHECKING:
     import numpy as np
@@ -80,7 +80,7 @@ def interval_indices(intervals: Sequence[DrawnInterval], numbers: NDArray[np.flo
     import numpy as np  # checking a sweep and reading its result do without
 
     unit = intervals[0].unit or "1"
-    drawn = [to_12_digits(in_unit(number, unit)) for number in numbers.tolist()]
+    drawn = [as_written(number, unit) for number in numbers.tolist()]
     return np.searchsorted([interval.low for interval in intervals[1:]], drawn, side="right")
 
 

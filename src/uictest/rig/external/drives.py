@@ -182,7 +182,8 @@ def _answers_by_cycle(
     brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
     effort = inputs["dynamic_brake"][:1].copy()
     untouched = UNTOUCHED if instance.contract == 1 else 0.0
-    blank, untouched_reduction = _blank_outputs(untouched), [untouched] * len(reduction)
+    blank, untouched_reduction = np.zeros(1, OUTPUTS), [untouched] * len(reduction)
+    blank["reference_speed"], blank["dynamic_reduction"] = np.nan, untouched
     newest = [0.0] * len(pressure)
     for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
         memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
@@ -191,7 +192,7 @@ def _answers_by_cycle(
             wanted = dynamic * (1.0 - np.clip(reduced, 0.0, 1.0)) if cycle else dynamic
             effort += gain * (wanted - effort)
             dynamic[:] = effort[0]
-        memory[OUTPUTS_AT:_GUARD_AT] = blank
+        memory[OUTPUTS_AT:_GUARD_AT] = blank.tobytes()
         fields.guard = GUARD
         fields.cycles += 1
         fields.calling = STEPPING
@@ -217,13 +218,6 @@ def _answers_by_cycle(
             _pressure_after(*each, full, cycle_time) for each in zip(newest, demanded, magnets, strict=True)
         ]
         yield answer, seconds
-
-
-def _blank_outputs(untouched: float) -> bytes:
-    """Return outputs as a controller finds them that asks for nothing."""
-    outputs = np.zeros(1, OUTPUTS)
-    outputs["reference_speed"], outputs["dynamic_reduction"] = np.nan, untouched
-    return outputs.tobytes()
 
 
 def _pressure_after(

@@ -35,13 +35,13 @@ from uictest.controllers import (
 )
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.external.process_state import ControllerCalls
-from uictest.rig.stops import compiled_rig
 from uictest.rig.train_stop import (
     FinishedStop,
     StopInputs,
     TrainInputs,
     TrainStop,
     alone,
+    compiled_rig,
     run_to_end,
     run_train_to_end,
     stacked,

@@ -97,8 +97,11 @@ def identify_hysteresis(
     require_finite({"time": time, "pressure": pressure, "force": force})
     require_duration(time, _SHORTEST)
     step = sampling_time(time, _LONGEST_STEP)
-    _require_force(force)
     largest = float(force.max())
+    if largest < _SMALLEST_FORCE:
+        raise UnsuitableRecordError(f"no clamping force: at most {largest:.3g} N")
+    if np.ptp(force) < _LEAST_SPAN * largest:
+        raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
     is_held_out = held_out(len(time), held_out_share)
     points = _level_points(pressure, force, wsp_acting, ~is_held_out, step)
     lines = _fitted_lines(pressure, force, points)
@@ -106,7 +109,13 @@ def identify_hysteresis(
     def computed_by(lines: Mapping[str, FittedLine]) -> Samples:
         return computed_force(pressure, wsp_acting, all_four(lines), transition_time, step, float(force[0]))
 
-    level_lines = _fitted_level(lines, points, computed_by(lines) - force)
+    # The play between the lines keeps the peaks of a noisy pressure: a line through the middle of the points
+    # would give too much force where it squeezes and too little where it releases.
+    mean_error = computed_by(lines) - force
+    level_lines = {
+        phase: replace(line, intercept=line.intercept - float(np.mean(mean_error[points[phase]])))
+        for phase, line in lines.items()
+    }
     computed = computed_by(level_lines)
     error = ((computed - force) / largest)[is_held_out]
     squeezing, releasing = lines["bc_squeezing"], lines["bc_releasing"]
@@ -153,15 +162,6 @@ def hysteresis_text(result: HysteresisResult) -> str:
     return "\n".join(lines)
 
 
-def _require_force(force: Samples) -> None:
-    """Raise UnsuitableRecordError if there is no clamping force, or one that hardly varies."""
-    largest = float(force.max())
-    if largest < _SMALLEST_FORCE:
-        raise UnsuitableRecordError(f"no clamping force: at most {largest:.3g} N")
-    if np.ptp(force) < _LEAST_SPAN * largest:
-        raise UnsuitableRecordError(f"no excitation: the force varies by {np.ptp(force):.3g} N only")
-
-
 def _level_points(
     pressure: Samples, force: Samples, acting: Mask, fitted: Mask, step: float
 ) -> dict[str, NDArray[np.int_]]:
@@ -190,20 +190,6 @@ def _fitted_lines(
                 f"phase {phase!r} not found: the pressure must rise and fall far enough"
             )
     return lines
-
-
-def _fitted_level(
-    lines: Mapping[str, FittedLine], points: Mapping[str, NDArray[np.int_]], error: Samples
-) -> dict[str, FittedLine]:
-    """Return the lines without the mean error that the model makes on them.
-
-    The play between the lines keeps the peaks of a noisy pressure, so that a line through the middle of the
-    points would give too much force where it squeezes and too little where it releases.
-    """
-    return {
-        phase: replace(line, intercept=line.intercept - float(np.mean(error[points[phase]])))
-        for phase, line in lines.items()
-    }
 
 
 def all_four(lines: Mapping[str, FittedLine]) -> dict[str, FittedLine]:

@@ -20,20 +20,15 @@ def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
 
 def _settings(scenario: Scenario) -> dict[str, str]:
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
+    speed = scenario.initial_speed.text
+    if scenario.drag is not None:
+        speed += f", {scenario.drag.speed.text} held for {scenario.drag.duration.text}"
+    if scenario.until is not None:
+        speed += f", until {scenario.until.text}"
     return {
         "vehicle": _part_name(scenario.vehicle),
-        **(
-            {}
-            if scenario.coupler is None
-            else {"train": _train_in_words(scenario.coupler, brake.transmission)}
-        ),
-        "initial speed": scenario.initial_speed.text
-        + (
-            ""
-            if scenario.drag is None
-            else f", {scenario.drag.speed.text} held for {scenario.drag.duration.text}"
-        )
-        + ("" if scenario.until is None else f", until {scenario.until.text}"),
+        **({"train": _train_in_words(coupler, brake.transmission)} if (coupler := scenario.coupler) else {}),
+        "initial speed": speed,
         "brake": f"{_part_name(brake.system)}, position {brake.position}, {brake.command_text}",
         "rail": f"{_part_name(rail.condition)}, friction {_friction(scenario)},"
         f" gradient {rail.gradient.text}",

@@ -70,14 +70,10 @@ def _named_in_case(case: scenario.Case) -> Iterator[tuple[str, Verifier]]:
     for profile in case.scenario.criteria:
         for criterion in profile.criteria:
             if criterion.requirements:
-                verified = (case.id,) if _verifies(criterion, case.scenario) else ()
+                applies = not criterion.needs_series and scenario.applies_to(criterion, case.scenario)
+                verified = (case.id,) if applies and case.scenario.expect.outcome == "pass" else ()
                 for requirement in criterion.requirements:
                     yield requirement, Verifier("criterion", criterion.id, profile.name, cases=verified)
-
-
-def _verifies(criterion: scenario.Criterion, resolved: scenario.Scenario) -> bool:
-    applies = not criterion.needs_series and scenario.applies_to(criterion, resolved)
-    return applies and resolved.expect.outcome == "pass"
 
 
 def _named_in_series(series: Series) -> Iterator[tuple[str, Verifier]]:
@@ -86,11 +82,8 @@ def _named_in_series(series: Series) -> Iterator[tuple[str, Verifier]]:
         yield requirement, Verifier("series", series.file.name, series=(series.id,))
     for profile in series.criteria:
         for criterion in profile.criteria:
-            verified = (
-                (series.id,)
-                if series.file.expect.outcome == "pass" and _has_verdict_on(series, criterion)
-                else ()
-            )
+            verifies = series.file.expect.outcome == "pass" and _has_verdict_on(series, criterion)
+            verified = (series.id,) if verifies else ()
             for requirement in criterion.requirements:
                 yield requirement, Verifier("criterion", criterion.id, profile.name, series=verified)
 

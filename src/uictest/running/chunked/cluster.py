@@ -6,6 +6,7 @@ import hashlib
 import logging
 import secrets
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import CancelledError
 from itertools import islice
 from pathlib import Path
 from typing import Any, Final
@@ -62,24 +63,23 @@ def run_on_cluster(
 
 def _with_cluster_errors(address: str, results: Iterator[tuple[int, bytes]]) -> Iterator[tuple[int, bytes]]:
     """Yield the results. Errors of the cluster become ClusterError, those of the caller do not."""
+    from distributed import KilledWorker
+
     try:
         yield from results
-    except _cluster_errors() as error:
+    # A lost connection is an OSError; a worker with another program raises a RuntimeError.
+    except (KilledWorker, CancelledError, OSError, RuntimeError) as error:
         summary = f"{type(error).__name__}: {error}".partition("\n")[0]
         raise ClusterError(f"{address}: {summary}") from error
-
-
-def _silence_distributed() -> None:
-    """Keep the log of distributed off stderr: errors arrive as exceptions."""
-    for name in list(logging.root.manager.loggerDict):
-        if name.partition(".")[0] == "distributed":
-            logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def _connected(address: str) -> Any:
     import distributed
 
-    _silence_distributed()
+    # Errors arrive as exceptions: its log would only say them again on stderr.
+    for name in list(logging.root.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL)
     client: Any = distributed.Client
     try:
         return client(address, timeout=_TIMEOUT, set_as_default=False)
@@ -87,15 +87,6 @@ def _connected(address: str) -> Any:
         raise ClusterError(f"no scheduler answers at {address}") from error
     except ValueError as error:  # a protocol that distributed does not support
         raise ClusterError(f"{address}: {error}") from error
-
-
-def _cluster_errors() -> tuple[type[Exception], ...]:
-    from concurrent.futures import CancelledError
-
-    from distributed import KilledWorker
-
-    # A lost connection is an OSError; a worker with another program raises a RuntimeError.
-    return KilledWorker, CancelledError, OSError, RuntimeError
 
 
 def _results_of_chunks(
@@ -157,8 +148,6 @@ _RUNNERS: dict[str, ChunkRunner] = {}
 def _cached_runner(token: str, plan: Plan) -> ChunkRunner:
     if token not in _RUNNERS:
         _require_programs(plan)
-        runner = chunk_runner(plan, _WORKERS.run_block, _WORKERS.run_train)
         _RUNNERS.clear()
-        _RUNNERS[token] = runner
-        return runner
+        _RUNNERS[token] = chunk_runner(plan, _WORKERS.run_block, _WORKERS.run_train)
     return _RUNNERS[token]

@@ -22,8 +22,8 @@ from uictest.report import named_parts
 from uictest.running.chunked.chunk import CaseSelection
 from uictest.running.chunked.table import SURVEY_TABLE
 
-SOURCES: Final = (*("core", "controllers", "plans", "judging", "rig", "running"),)
-"""Rooms and modules of the package that determine the result of a case."""
+SOURCES: Final = ("core", "controllers", "plans", "judging", "rig", "running")
+"""Rooms of the package that determine the result of a case."""
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "pyarrow")
 _LIBRARY: Final = "library:"
 _LABELS: Final = {"selected": "selection", "cases_in_a_part": "cases per chunk"}
@@ -118,8 +118,7 @@ def program_digest() -> str:
     digest = hashlib.sha256(library.table(SURVEY_TABLE).encode())
     package = Path(__file__).parents[2]
     for name in SOURCES:
-        place = package / name
-        for source in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
+        for source in sorted((package / name).rglob("*.py")):
             digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes())
     return digest.hexdigest()[:16]
 
@@ -176,15 +175,11 @@ class ChunkStore:
 
     def finished(self) -> tuple[set[int], list[Path]]:
         """Return the numbers of the intact chunks, and the damaged files, which are removed."""
-        intact: set[int] = set()
-        damaged: list[Path] = []
-        for number, path in self._files():
-            if _is_intact(path):
-                intact.add(number)
-            else:
-                damaged.append(path)
-                files.remove(self.folder, f"{CHUNKS}/{path.name}")
-        return intact, damaged
+        chunks = self._files()
+        damaged = [path for _, path in chunks if not _is_intact(path)]
+        for path in damaged:
+            files.remove(self.folder, f"{CHUNKS}/{path.name}")
+        return {number for number, path in chunks if path not in damaged}, damaged
 
     def has_chunks(self) -> bool:
         """Return whether there is a finished chunk, False where the folder cannot be read."""
@@ -221,10 +216,8 @@ class ChunkStore:
         manifest = other.manifest()
         if manifest is None:
             raise ChangedInputsError(f"{other.folder} holds no sweep")
-        changes = list(
-            manifest_differences(self.manifest() or {}, manifest, ("in this sweep", "in the shard"))
-        )
-        if changes:
+        whose = ("in this sweep", "in the shard")
+        if changes := list(manifest_differences(self.manifest() or {}, manifest, whose)):
             raise ChangedInputsError(f"{other.folder}: {'; '.join(changes)}")
         paths = [path for _, path in other._files()]
         intact = [path for path in paths if _is_intact(path)]

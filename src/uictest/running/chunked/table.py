@@ -117,8 +117,8 @@ def rows(
         columns[name] = [measures.get(name) for measures in of_stops]
     wheelsets = [each.wheelsets or _NO_WHEELSETS for each in results]
     for name in WHEELSET_COLUMNS:
-        for place, numbered in enumerate(wheelset_columns(name)):
-            columns[numbered] = [of_each[place].get(name) for of_each in wheelsets]
+        for index, numbered in enumerate(wheelset_columns(name)):
+            columns[numbered] = [of_stop[index].get(name) for of_stop in wheelsets]
     schema = row_schema(plan)
     return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
 
@@ -165,10 +165,8 @@ def surveyed_cases(table: pa.Table) -> set[int]:
 
 def repeated_cases(table: pa.Table) -> int:
     """Return the number of cases of a survey that were simulated again in regular steps; 0 for no survey."""
-    if TIME_STEP_COLUMN not in table.column_names:
-        return 0
-    steps = table.column(TIME_STEP_COLUMN).to_numpy()
-    return int(np.count_nonzero(steps == REGULAR_STEP / SIZES["ms"]))
+    is_survey = TIME_STEP_COLUMN in table.column_names
+    return table.num_rows - len(surveyed_cases(table)) if is_survey else 0
 
 
 SURVEY_TABLE = "survey_step.csv"

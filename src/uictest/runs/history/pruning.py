@@ -9,13 +9,13 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 from uictest.core import files
 from uictest.runs.history.listing import Kind, ListedRun, list_runs, started_in
 
 
-@dataclass(frozen=True, slots=True)
-class Pruned:
+class Pruned(NamedTuple):
     """The fate of a run beyond those that are kept: removed where `kept_because` is empty."""
 
     name: str

@@ -44,16 +44,11 @@ def refused(open_fmu, path, *arguments, **names):
     return str(error.value).removeprefix(f"{path.name} ")
 
 
-def test_a_step_answers_the_inputs_of_the_same_cycle(make_fmu, started, fmi):
-    ask = started(make_fmu(fmi), {"threshold": 10.0})
-    assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
-    assert magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1)) == ([0] * 4, [0] * 4)
-
-
-def test_an_fmu_that_answers_a_cycle_late_is_left_as_it_is(make_fmu, started, fmi):
-    ask = started(make_fmu(fmi), {"threshold": 10.0, "late": 1})
-    assert magnets(ask(*SPEEDS)) == ([0] * 4, [0] * 4)
-    assert magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1)) == VENTS_TWO_AND_FOUR
+def test_a_step_answers_the_inputs_of_the_same_cycle_unless_the_fmu_answers_late(make_fmu, started, fmi):
+    path, nothing = make_fmu(fmi), ([0] * 4, [0] * 4)
+    for late, answers in ((0, [VENTS_TWO_AND_FOUR, nothing]), (1, [nothing, VENTS_TWO_AND_FOUR])):
+        ask = started(path, {"threshold": 10.0, "late": late})
+        assert [magnets(ask(*SPEEDS)), magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1))] == answers
 
 
 TYPES = [(2, "Real", "Real"), (2, "Real", "Integer"), (2, "Real", "Boolean"), (2, "Real", "Enumeration")]
@@ -83,12 +78,15 @@ def test_variables_have_our_names_or_those_of_the_scenario_and_may_be_arrays(
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
-def test_a_tool_may_count_wheelsets_from_0(make_fmu, started, fmi):
+def test_a_tool_may_count_wheelsets_from_0_and_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu, started, fmi):
+    """The place of `late` is shown as the diagnosis."""
     listed = make_fmu.variables(fmi)
     for place in range(4):
         listed[f"v{place}"] = listed.pop(f"wheel_speed_{place + 1}")
     ask = started(make_fmu(fmi, listed), {"threshold": 10.0}, wheel_speed="v%d")
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
+    listed = make_fmu.variables(2, diagnosis=(34, "output", "Integer"))
+    assert int(started(make_fmu(2, listed), {"late": -2})(*SPEEDS)["diagnosis"]) == 0xFFFFFFFE
 
 
 def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_variable(make_fmu, started, fmi):
@@ -123,18 +121,17 @@ def test_an_fmu_with_a_reduction_is_of_version_2_of_the_contract(make_fmu, start
     assert magnets(answer) == VENTS_TWO_AND_FOUR
 
 
-ASKING = {
-    "sand_request": ([f"sand_request_{n}" for n in (1, 2, 3, 4)], 21, [0, 1, 0, 1]),
-    "track_brake_request": (["track_brake_request"], 22, 1),
-}
-
-
-@pytest.mark.parametrize("request_of_it", ASKING)
+@pytest.mark.parametrize(
+    ("request_of_it", "names", "first", "expected"),
+    [
+        ("sand_request", [f"sand_request_{n}" for n in (1, 2, 3, 4)], 21, [0, 1, 0, 1]),
+        ("track_brake_request", ["track_brake_request"], 22, 1),
+    ],
+)
 def test_an_fmu_that_asks_for_sand_or_track_brake_alone_is_of_version_2(
-    make_fmu, open_fmu, started, fmi, request_of_it
+    make_fmu, open_fmu, started, fmi, request_of_it, names, first, expected
 ):
     """Outputs show the places of the vents."""
-    names, first, expected = ASKING[request_of_it]
     whole = {2: "Boolean", 3: "Int8"}[fmi]
     added = {name: (first + place, "output", whole) for place, name in enumerate(names)}
     path = make_fmu(fmi, make_fmu.variables(fmi, **added))
@@ -156,32 +153,9 @@ def test_what_only_version_2_has_is_not_set_in_an_fmu_of_version_1(make_fmu, ope
     assert refused(open_fmu, path, axle_load="axle_load") == message
 
 
-def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu, started):
-    """The place of `late` is shown as the diagnosis."""
-    listed = make_fmu.variables(2, diagnosis=(34, "output", "Integer"))
-    ask = started(make_fmu(2, listed), {"late": -2})
-    assert int(ask(*SPEEDS)["diagnosis"]) == 0xFFFFFFFE
-
-
-def test_reset_returns_to_the_start_values_and_the_parameters(make_fmu, open_fmu, ask, fmi):
-    path = make_fmu(fmi)
-    instance = open_fmu(path, {"threshold": 10.0, "late": 1})
-    for _ in range(2):
-        instance.reset()
-        assert magnets(ask(instance, *SPEEDS)) == ([0] * 4, [0] * 4)
-        assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
-    instance.close()
-    other = open_fmu(path)  # the same FMU, with the threshold that it starts with
-    other.reset()
-    ask(other, *SPEEDS)
-    assert magnets(ask(other, *SPEEDS)) == ([0] * 4, [0] * 4)
-
-
-@pytest.mark.parametrize("fault", [9, 10], ids=["error", "fatal"])
-def test_an_fmu_that_cannot_be_reset_begins_each_stop_as_another_instance(
-    make_fmu, open_fmu, ask, fmi, fault
-):
-    """Some tools leave the reset out, though both standards ask for it."""
+@pytest.mark.parametrize("fault", [0, 9, 10], ids=["none", "error", "fatal"])
+def test_reset_returns_to_the_start_values_and_the_parameters(make_fmu, open_fmu, ask, fmi, fault):
+    """Also where it cannot be reset: some tools leave the reset out, though both standards ask for it."""
     path = make_fmu(fmi)
     for _ in range(2):
         instance = open_fmu(path, {"threshold": 10.0, "late": 1, "fault": fault})
@@ -190,13 +164,12 @@ def test_an_fmu_that_cannot_be_reset_begins_each_stop_as_another_instance(
             assert magnets(ask(instance, *SPEEDS)) == ([0] * 4, [0] * 4)
             assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
         instance.close()
-
-
-def test_instances_have_names_of_their_own(make_fmu, open_fmu, fmi):
-    """As both standards ask; a tool may keep what belongs to an instance under its name."""
-    path = make_fmu(fmi)
-    names = {open_fmu(path)._slave._fmu.instanceName for _ in range(3)}
-    assert len(names) == 3
+    other = open_fmu(path)  # the same FMU, with the threshold that it starts with
+    other.reset()
+    ask(other, *SPEEDS)
+    assert magnets(ask(other, *SPEEDS)) == ([0] * 4, [0] * 4)
+    # As both standards ask; a tool may keep what belongs to an instance under its name.
+    assert len({open_fmu(path)._slave._fmu.instanceName for _ in range(3)}) == 3
 
 
 def test_an_fmu_is_loaded_once_per_thread_and_two_at_once_are_apart(
@@ -231,11 +204,6 @@ def test_an_fmu_is_loaded_once_per_thread_and_two_at_once_are_apart(
     assert folders == [1, 1, 1, 2, 2, 2, 2, 2]
 
 
-def test_the_version_is_that_of_the_model_description(make_fmu, open_fmu, fmi):
-    assert open_fmu(make_fmu(fmi, about='version="2.4.1"')).version == "2.4.1"
-    assert open_fmu(make_fmu(fmi)).version == ""
-
-
 FAULTS = {
     "nan": (1, r"hold_3 is nan, expected 0 or 1"),
     "half": (2, r"vent_2 is 0\.5, expected 0 or 1"),
@@ -265,16 +233,17 @@ def test_a_step_that_fails_says_what_the_fmu_says_and_the_next_stop_goes_on(
     assert capfd.readouterr().out == ""
 
 
-def test_an_fmu_that_ends_the_simulation_ends_the_stop(make_fmu, started):
-    ask = started(make_fmu(3), {"fault": 5, "at": 0})
-    with pytest.raises(ControllerError, match=r"^the FMU asks to end the simulation$"):
-        ask(*SPEEDS)
-
-
-def test_an_fmu_that_does_not_start_says_why(make_fmu, open_fmu, fmi):
-    instance = open_fmu(make_fmu(fmi), {"fault": 8})
+def test_an_fmu_that_ends_the_simulation_or_does_not_start_says_why(make_fmu, open_fmu, started, fmi):
+    """The version is that of the model description."""
+    instance = open_fmu(make_fmu(fmi, about='version="2.4.1"'), {"fault": 8})
+    assert instance.version == "2.4.1"
     with pytest.raises(ControllerError, match=r"^fmi\dExitInitializationMode returned error: no start( 7)?$"):
         instance.reset()
+    assert open_fmu(make_fmu(fmi)).version == ""
+    if fmi == 3:
+        ask = started(make_fmu(3), {"fault": 5, "at": 0})
+        with pytest.raises(ControllerError, match=r"^the FMU asks to end the simulation$"):
+            ask(*SPEEDS)
 
 
 def test_an_fmu_without_the_variables_that_are_needed_is_refused(make_fmu, open_fmu, fmi):
@@ -389,35 +358,29 @@ def test_an_fmu_of_another_step_is_refused(make_fmu, open_fmu):
     open_fmu(make_fmu(2, experiment=experiment.format("0.003"), interface=variable))
 
 
-def test_a_file_that_changes_after_it_was_read_is_not_loaded(make_fmu, open_program):
+def test_a_file_that_changes_after_it_was_read_is_not_loaded_and_a_missing_extra_is_named(
+    make_fmu, open_fmu, open_program, monkeypatch
+):
     path = make_fmu(2)
     with pytest.raises(ControllerError, match=rf"^{path.name} has changed since the scenario was read$"):
         open_program(path, "0" * 64)
-
-
-def test_a_missing_extra_is_named(make_fmu, open_fmu, monkeypatch):
-    path = make_fmu(2)
     monkeypatch.setattr("uictest.controllers.adapters.fmu.find_spec", lambda name: None)
-    with pytest.raises(
-        ControllerError, match=r"^controllers as FMUs need FMPy: pip install 'uictest\[fmu\]'$"
-    ):
+    message = r"^controllers as FMUs need FMPy: pip install 'uictest\[fmu\]'$"
+    with pytest.raises(ControllerError, match=message):
         open_fmu(path)
 
 
-@pytest.mark.parametrize("size", ["0", "-0.01", "nan", "inf", "soon"])
-def test_a_step_size_that_is_none_is_refused(make_fmu, open_fmu, fmi, size):
-    stated = {"experiment": f'<DefaultExperiment stepSize="{size}"/>'}
-    if fmi == 3:
-        stated = {"interface": f'fixedInternalStepSize="{size}"'}
-    assert "states a step size that is none" in refused(open_fmu, make_fmu(fmi, **stated))
-
-
-@pytest.mark.parametrize("reference", [-1, 2**32])
-def test_a_value_reference_that_no_fmu_can_have_is_refused(make_fmu, open_fmu, fmi, reference):
-    listed = make_fmu.variables(fmi)
-    listed["hold_1"] = (reference, *listed["hold_1"][1:])
-    message = refused(open_fmu, make_fmu(fmi, listed))
-    assert message == f"has value reference {reference} of hold_1, expected a number from 0 to 4294967295"
+def test_a_step_size_or_a_value_reference_that_no_fmu_can_have_is_refused(make_fmu, open_fmu, fmi):
+    for size in ("0", "-0.01", "nan", "inf", "soon"):
+        stated = {"experiment": f'<DefaultExperiment stepSize="{size}"/>'}
+        if fmi == 3:
+            stated = {"interface": f'fixedInternalStepSize="{size}"'}
+        assert "states a step size that is none" in refused(open_fmu, make_fmu(fmi, **stated))
+    for reference in (-1, 2**32):
+        listed = make_fmu.variables(fmi)
+        listed["hold_1"] = (reference, *listed["hold_1"][1:])
+        message = f"has value reference {reference} of hold_1, expected a number from 0 to 4294967295"
+        assert refused(open_fmu, make_fmu(fmi, listed)) == message
 
 
 @pytest.mark.parametrize("identifier", ["../../evil", "a/b", "", "1a", "a b", "\u00e4", "any\n"])

@@ -428,7 +428,6 @@ _BUILT_IN = "built in"
 
 
 def _tag_of_kind(value: object) -> str:
-    """Return the tag of the union member that a mapping is for: built-in algorithms, or a kind of program."""
     if isinstance(value, ExternalController):
         return value.tag
     keys = value if isinstance(value, Mapping) else ()

@@ -187,7 +187,6 @@ class Criterion(Model):
             )
 
     def _dry_bound_problems(self) -> Iterator[Inconsistency]:
-        """Yield a share of the dry stop with another bound, or of a measure that has no dry value."""
         bounds = {"lower": self.lower, "upper": self.upper}
         shares = [name for name, bound in bounds.items() if isinstance(bound, DryBound)]
         if not shares:
@@ -211,7 +210,6 @@ class Criterion(Model):
             yield Inconsistency((shares[0],), message, hint)
 
     def _reading_problems(self) -> Iterator[Inconsistency]:
-        """Yield a missing name of the criterion's own reading, repeated names, other kinds of quantity."""
         if self.readings and not self.reading:
             message = f"criterion {quoted(self.id)} has other readings, its own has no name"
             yield Inconsistency((), message, "write 'reading'")

@@ -69,14 +69,11 @@ def _known_part(name: str) -> str:
     return name
 
 
-def _kinds_of(part: str) -> list[str]:
-    return [name for of, name in FAULT_KINDS if of == part]
-
-
 def _known_kind(name: str, info: ValidationInfo) -> str:
     part = info.data.get("part")
     if part is not None and (part, name) not in FAULT_KINDS:
-        raise refused(f"{quoted(part)} has no fault {quoted(name)}", suggestion(name, _kinds_of(part)))
+        kinds = [kind for of, kind in FAULT_KINDS if of == part]
+        raise refused(f"{quoted(part)} has no fault {quoted(name)}", suggestion(name, kinds))
     return name
 
 
@@ -137,16 +134,7 @@ class Fault(Model):
         return f"{self.part}-{self.kind}{number}"
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield an unknown kind, a value or a wheelset missing or too many, an end before the beginning."""
-        if (self.part, self.kind) not in FAULT_KINDS:
-            hint = suggestion(self.kind, _kinds_of(self.part))
-            yield Inconsistency(("kind",), f"{quoted(self.part)} has no fault {quoted(self.kind)}", hint)
-            return
-        yield from self._wheelset_problems()
-        yield from self._value_problems()
-        yield from self._order_problems()
-
-    def _wheelset_problems(self) -> Iterator[Inconsistency]:
+        """Yield a wheelset missing or too many, a missing value, an end before the beginning."""
         if self.declared.of_wheelset and self.wheelset is None:
             yield Inconsistency(
                 (), f"which {quoted(self.part)} is faulty is not said", "add `wheelset: 1`, 2, 3 or 4"
@@ -155,18 +143,11 @@ class Fault(Model):
             yield Inconsistency(
                 ("wheelset",), f"the train has one {quoted(self.part)}", "leave `wheelset` out"
             )
-
-    def _value_problems(self) -> Iterator[Inconsistency]:
-        what, takes = f"{quoted(self.kind)} of {quoted(self.part)}", self.declared.value
-        if takes is None:
-            if self.value is not None:
-                yield Inconsistency(("value",), f"{what} takes no value", "leave `value` out")
-        elif self.value is None:
-            if not takes.without:
-                hint = f"add `value`, a {takes.kind} from {takes.at_least} to {takes.at_most}"
-                yield Inconsistency((), f"{what} needs a value", hint)
-        elif self.value.unit != KINDS[takes.kind].canonical:
-            yield Inconsistency(("value",), f"{what} takes a {takes.kind}, not {self.value.text}")
+        takes = self.declared.value
+        if takes is not None and self.value is None and not takes.without:
+            hint = f"add `value`, a {takes.kind} from {takes.at_least} to {takes.at_most}"
+            yield Inconsistency((), f"{quoted(self.kind)} of {quoted(self.part)} needs a value", hint)
+        yield from self._order_problems()
 
     def _order_problems(self) -> Iterator[Inconsistency]:
         """Yield an end before the beginning, where both are of one kind; a train only gets slower."""
@@ -223,7 +204,6 @@ def impossible_faults(scenario: Any) -> Iterator[Inconsistency]:
 
 
 def _without_teeth(scenario: Any, location: int, fault: Any) -> Iterator[Inconsistency]:
-    """Yield a pole wheel that loses teeth though none are counted, or more teeth than it has."""
     method, teeth, missing = (
         wheelset_value(scenario, fault.wheelset, f"sensors.speed.{name}")
         for name in ("method", "teeth", "missing_teeth")

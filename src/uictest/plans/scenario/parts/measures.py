@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import Annotated, Any, ClassVar, Final, Literal, get_args
 
 from pydantic import (
@@ -14,7 +15,6 @@ from pydantic import (
     model_validator,
 )
 
-from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import MEASURES, SLIDE_CLASS, SLOW_SHARE_CLASS, Measure
 from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
 from uictest.core.units import KINDS, in_unit
@@ -293,9 +293,9 @@ class Definition(Model):
         """Return the definitions that are given, by name."""
         return {name: value for name, value in self if isinstance(value, RangedDefinition)}
 
-    @once_per_object
+    @cached_property
     def stated(self) -> dict[str, float]:
-        """Return the SI value used of each definition that is given."""
+        """The SI value used of each definition that is given."""
         return {name: float(parameter.value) for name, parameter in self.parameters().items()}
 
 

@@ -73,7 +73,6 @@ WheelsetNumber = Annotated[
 
 
 def _own_field(regular: type[Model], name: str) -> Any:
-    """Return the field of a value that replaces the one of the same name in a regular section."""
     return optional(regular.model_fields[name].description or "")
 
 
@@ -409,7 +408,6 @@ class Vehicle(Part):
             )
 
     def _springs_too_soft(self) -> Iterator[Inconsistency]:
-        """Yield springs on which the car would oscillate more slowly than any real car."""
         body = self.loaded_body.mass
         sprung = body + 2.0 * self.bogie.mass
         primary, secondary, link = self.primary, self.secondary, self.traction_link

@@ -67,7 +67,6 @@ class QuantityField(NamedTuple):
         return parse_quantity(getattr(value, "text", str(value)), self.kind.name, source, self._accepts)
 
     def _validated_mapping(self, mapping: dict[str, object]) -> Quantity:
-        """Return a number with its source, its plausible range and how likely the values in that are."""
         source = mapping.get("source", SCENARIO_SOURCE if "range" in mapping else None)
         of_range = mapping.get("range_source", source)
         if not (
@@ -86,7 +85,6 @@ class QuantityField(NamedTuple):
         return Quantity(float(number), number.text, number.unit, source, ends, prior)
 
     def _range(self, ends: object, value: Quantity, source: str) -> tuple[Quantity, Quantity]:
-        """Return the plausible range of a value: two bounds that hold it, in its unit."""
         if not isinstance(ends, list | tuple) or len(ends) != 2 or dict in map(type, ends):
             raise QuantityError("a range has two ends", f"write [{example(self.kind)}, and a larger one]")
         low, high = [self._checked_within_bounds(self._number(end, source)) for end in ends]
@@ -200,7 +198,6 @@ def written(quantity: Quantity) -> str | dict[str, Any]:
 
 
 def _read_prior(prior: object, ends: tuple[Quantity, Quantity] | None) -> Prior:
-    """Return the prior of a range; a logarithmic one takes ends above zero, as written."""
     if prior not in get_args(Prior):
         raise QuantityError(f"unknown prior {quoted(str(prior))}", f"accepted: {', '.join(get_args(Prior))}")
     if ends is None:

@@ -378,7 +378,6 @@ def _files_below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
 
 
 def _may_be_scenario(name: str) -> bool:
-    """Whether a file of this name in a folder is taken for a scenario, unless its schema is another."""
     return (
         name.endswith((".yaml", ".yml"))
         and not name.startswith((".", "_"))

@@ -65,7 +65,6 @@ def hint_for_key(model: Any, key: Key, written: Key, node: Node) -> str:
 
 
 def _paths_of_key(model: Any, name: str) -> list[tuple[str, ...]]:
-    """Return the paths of keys called ``name`` in a model, those nearest to its top."""
     level: list[tuple[tuple[str, ...], Any]] = [((), each) for each in models_in(model)]
     for _ in range(_DEEPEST):
         paths = [(*above, name) for above, each in level if name in each.model_fields]
@@ -162,7 +161,6 @@ def _as_diagnostics(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator
 
 
 def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) -> str:
-    """Hint for a node of another kind than the expected mapping, list or single value."""
     if kind in _MAPPINGS:
         return hint_for_mapping(model, key, str(written[-1]) if written else "", node)
     if kind == "tuple_type":
@@ -186,7 +184,6 @@ def _diagnostic_at(
 
 
 def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, prefix: Key) -> Diagnostic:
-    """The discriminator of a union is missing or unknown."""
     name = context["discriminator"].strip("'")
     choices = sorted(get_args(field.annotation)[0] for field in fields_named(model, key, name))
     if "tag" not in context:
