@@ -32,7 +32,7 @@ RULES: Final = tuple(
         (r"^ +\d+\.\d{3} s(?=  \S)", "<duration>"),
         # Durations of answers in `controller check`: table, JUnit, JSON, reason.
         (r"^(in-time +pass +)\S+ +", r"\1<duration>  "),
-        (r"(?<=within the cycle\. )\S+(?=, at most 100 % of the cycle)", "<duration>"),
+        (r"(?<=within the cycle\. )\S+(?=, at most 100 %)", "<duration>"),
         (r'("id": "in-time",\n(?:.*\n){2} *"value": )[-\d.e]+', r"\1<duration>"),
         (r"(?<= answers within )\S+ \S+, the longest \S+ \S+?(?=[\"<\n])", "<duration>"),
         # Lines that appear only where the machine is slow.

@@ -1,8 +1,8 @@
 """Console blocks: the commands in them are run, and what they print is what the page shows.
 
-A block marked ``console`` shows what a pipe gets, one marked ``console terminal`` what a terminal of 100
-columns shows. All blocks of a page are run one after the other in one folder that holds the shipped scenarios
-and every YAML or Python block of the page that names its file.
+A block marked ``console`` shows what a pipe gets, which is what a terminal of 100 columns shows. All blocks
+of a page are run one after the other in one folder that holds the shipped scenarios and every YAML or Python
+block of the page that names its file.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from markup import Block, blocks, with_blocks
 REPOSITORY = Path(__file__).parents[2]
 _PROMPT = "$ "
 _NUMBER = re.compile(r"[-+]?\d[\d.,]*(?:e[-+]?\d+)?|\bnan\b")
-_VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\bin \d+\.\d s\b")
+_VOLATILE = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{8}(?:-\d+)?|\b(?:in|took) \d+\.\d s\b")
 _SIGN_OF_LIFE = re.compile(r"^uictest: \d+ of \d+ (?:cases|stops)[^\n]*\n", re.MULTILINE)
-Output = Callable[[str, Path, bool], str]
+Output = Callable[[str, Path], str]
 _LONGEST = 1800  # seconds after which a command is taken for hanging, however busy the machine is
 
 
@@ -58,14 +58,14 @@ def prepare(page: str, folder: Path) -> None:
 def executed(block: Block, folder: Path, output_of: Output | None = None) -> str:
     """Return the block with each command followed by what it prints.
 
-    `output_of` runs a command in a folder, on a terminal or for a pipe [default: in a shell of its own].
+    `output_of` runs a command in a folder [default: in a shell of its own].
     """
     output_of = output_of or in_shell
     lines = []
     for command in commands_in(block):
         lines.append(f"{_PROMPT}{command}")
         # Only a slow machine says how far it is.
-        shown = _SIGN_OF_LIFE.sub("", output_of(command, folder, "terminal" in block.info))
+        shown = _SIGN_OF_LIFE.sub("", output_of(command, folder))
         lines += shown.lstrip("\n").splitlines()
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
@@ -94,10 +94,8 @@ def shape(text: str) -> str:
     return re.sub(r"\n\s*\n", "\n", re.sub(r"[ \t]+", " ", _NUMBER.sub("#", steady(text))))
 
 
-def in_shell(command: str, folder: Path, on_terminal: bool) -> str:
-    """Return what a command writes to a terminal or to a pipe, both streams."""
-    if on_terminal:
-        return _on_terminal(command, folder, environment())
+def in_shell(command: str, folder: Path) -> str:
+    """Return what a command writes to a pipe, both streams."""
     done = subprocess.run(
         ["sh", "-c", command],
         cwd=folder,

@@ -9,8 +9,7 @@ import uictest.rig
 from uictest.controllers import ControllerError
 from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import load
-from uictest.report import subjects_form
-from uictest.report.run_folder import read_subjects
+from uictest.report.run_folder import read_subjects, subjects_form
 from uictest.running.campaign import RecordingRequest, Stop, descriptions_of, run_stop
 
 from .conftest import make_case

@@ -86,7 +86,7 @@ def test_the_github_action_runs_several_folders(job, folders):
     (job / "two" / "again.yaml").write_text(SCENARIO.format(name="again", text=""), "utf-8")
     inputs = {"SCENARIOS": folders, "OPTIONS": "", "OUTPUT": "out"}
     done = bash(run_step()["run"], GITHUB_OUTPUT=str(job / "outputs"), **inputs)
-    assert "2 cases: 2 pass" in done.stderr
+    assert "PASSED: 2 cases: 2 pass" in done.stdout
 
 
 def test_inputs_reach_the_shell_of_the_github_action_as_variables_only():

@@ -1,6 +1,7 @@
 """The program as its users meet it: in a folder of its own, in this process or in one of its own."""
 
 import json
+import re
 import shutil
 import signal
 import subprocess
@@ -64,6 +65,14 @@ def rolling_train(end=10.5, **changes):
     channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
     units = {name: "s" if name == "time" else "m/s" for name in channels}
     return Recording(channels, units, {"brake_command_time": "0 s"})
+
+
+def verdicts_in(text):
+    """The table of a run as it is shown: id -> verdict."""
+    _, _, table = text.partition("case  ")
+    lines = re.split("\n\n|\nseries  |\nnot shown", table)[0].splitlines()
+    rows = [re.split("  +", line) for line in lines[1:]]
+    return {cells[0]: cells[1] for cells in rows if cells[0] and len(cells) > 1}
 
 
 def results_of(folder="reports/latest"):

@@ -1,8 +1,9 @@
-"""What a run shows while it runs and at its end: progress, a table on a terminal, and its exit code."""
+"""What a run shows while it runs and at its end: progress, its text, and its exit code."""
 
 import io
 import threading
 from contextlib import redirect_stdout
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,14 +12,7 @@ from uictest import report
 from uictest.cli import run_display
 from uictest.cli.options import Format
 from uictest.cli.output import ExitCode, interactive, of_run
-from uictest.cli.run_display import (
-    Annotations,
-    Lines,
-    ResultsDocument,
-    VerdictTable,
-    chosen_display,
-    progress,
-)
+from uictest.cli.run_display import chosen_display, progress
 from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import PASS
 from uictest.report import RunContent
@@ -63,49 +57,57 @@ class Terminal(io.StringIO):
         return True
 
 
-@pytest.mark.parametrize(
-    ("stream", "shown", "display"),
-    [
-        (Terminal, Format.TEXT, VerdictTable),
-        (Terminal, Format.JSON, ResultsDocument),
-        (Terminal, Format.GITHUB, Annotations),
-        (io.StringIO, Format.TEXT, Lines),
-    ],
-)
-def test_text_is_a_table_on_a_terminal_and_lines_elsewhere(stream, shown, display):
-    with redirect_stdout(stream()):
-        assert type(chosen_display(shown, quiet=False, verbose=False)) is display
-
-
 @pytest.mark.parametrize(("ci", "watched"), [("true", False), ("1", False), ("", True), ("false", True)])
 def test_on_a_ci_service_nobody_watches(monkeypatch, ci, watched):
     monkeypatch.setenv("CI", ci)
     assert interactive(Terminal()) is watched
 
 
+WIDE = replace(MISSED, id="a-name-of-some-length" * 2 + "[friction=0.10,command=100]")
+
+
 @pytest.fixture
 def shown(monkeypatch):
-    """Return what a terminal shows of a met and a missed case, with variables of the environment."""
+    """Return what a stream shows of a met and a missed case, with variables of the environment."""
 
-    def show(quiet=False, **variables):
+    def show(stream=Terminal, quiet=False, cases=(MET, MISSED), **variables):
         for name, value in {"COLUMNS": "120", **variables}.items():
             monkeypatch.setenv(name, value)
-        with redirect_stdout(Terminal()) as terminal:
+        with redirect_stdout(stream()) as written:
             display = chosen_display(Format.TEXT, quiet=quiet, verbose=False)
-            for result in (MET, MISSED):
-                display.show(result, ())
-            display.end(RunContent("run", [MET, MISSED]), "{}")
-        return terminal.getvalue()
+            content = RunContent("run", cases)
+            display.end(content, "{}")
+            display.close(content, "; took 1.0 s", Path("reports/run"))
+        return written.getvalue()
 
     return show
 
 
-def test_the_table_is_as_wide_as_columns_says_and_explains_what_is_not_met(shown):
-    assert max(map(len, shown(COLUMNS="100", NO_COLOR="1").splitlines())) <= 100
+def test_the_text_of_a_terminal_is_that_of_a_log_and_ends_with_what_failed_and_where_the_reports_are(shown):
     text = shown(NO_COLOR="1")
+    assert shown(io.StringIO) == text
+    assert text.splitlines()[-6:] == [
+        "b misses requirements",
+        *("  fail. Expected: pass", "  locked"),
+        "",
+        "FAILED: 1 of 2 cases failed: b; took 1.0 s",
+        "reports: reports/run",
+    ]
     assert "[bold]a" in text
-    assert "fail b\n  fail. Expected: pass\n  locked\n" in text
     assert "[bold]a" not in shown(quiet=True)
+
+
+@pytest.mark.parametrize(
+    ("columns", "widest"), [("", 100), ("40", 100), ("80", 100), ("100", 100), ("140", 140)]
+)
+@pytest.mark.parametrize("service", [{}, {"CI": "true", "GITHUB_ACTIONS": "true", "GITLAB_CI": "true"}])
+def test_a_log_has_100_columns_whatever_the_service_and_columns_alone_widens_it(
+    shown, columns, widest, service
+):
+    narrow = shown(io.StringIO, cases=(MET, WIDE), COLUMNS="100")
+    text = shown(io.StringIO, cases=(MET, WIDE), COLUMNS=columns, **service)
+    assert max(map(len, text.splitlines())) <= widest
+    assert (text == narrow) == (widest == 100)
 
 
 @pytest.mark.parametrize("unwanted", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])

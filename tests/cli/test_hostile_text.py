@@ -77,8 +77,13 @@ def test_a_command_shows_it_as_text(call, folder, workplace, monkeypatch, comman
     if terminal:
         monkeypatch.setenv("COLUMNS", "80")
         monkeypatch.setattr("uictest.cli.run_display.interactive", lambda stream: True)
-        for module in ("cli.run_display", *(f"cli.commands.{name}" for name in ("list", "sweep", "compare"))):
-            monkeypatch.setattr(f"uictest.{module}.terminal_width", lambda stream: 80)
+        for name in (
+            "cli.run_display.output",
+            "cli.commands.sweep.output",
+            "cli.commands.compare.output",
+            "cli.commands.list.terminal",
+        ):
+            monkeypatch.setattr(f"uictest.{name}_width", lambda stream: 80)
     names = {
         "FILE": FILE,
         "SWEEP": FILE.replace(".yaml", ".sweep.yaml"),

@@ -81,7 +81,9 @@ def test_a_connection_that_breaks_ends_its_case_and_results_name_the_program(cal
     named, closed, late = results().values()
     assert "response_times" not in late  # without a clock nothing is said of time
     assert named["controller_version"] == "slip band in Python 1.0"
-    assert "version slip band in Python 1.0, connect tcp://" in answer.out
+    first, *_ = answer.out.splitlines()
+    # Once, although the case whose connection broke told no version.
+    assert first.endswith(" (version slip band in Python 1.0, contract 1), car intercity-180, 45 t")
     digests = {named["case_sha256"], closed["case_sha256"]}
     assert [len(digest) for digest in digests] == [64, 64]
     assert "controller_version" not in closed
@@ -100,8 +102,8 @@ def test_a_missed_deadline_makes_a_stop_invalid(call, faults):
     assert result["outcome"] == "invalid"
     assert result["reason"].startswith(f"real-time: {sentence} of 10 ms; the longest took ")
     assert (result["criteria"][-1]["id"], result["criteria"][-1]["verdict"]) == ("real-time", "fail")
-    assert f"missed_deadlines={times['missed_deadlines']} longest_answer_s=" in answer.out
     shown = f"in real time: {times['missed_deadlines']} of {times['answers']} answers after the end"
+    assert shown in " ".join(answer.out.split())
     assert shown in (ElementTree.parse("junit.xml").findtext(".//failure") or "")
     assert shown[1:] in Path("reports/latest/index.html").read_text("utf-8")
     # A stop that misses its expectation is recorded, and not by running it a second time.

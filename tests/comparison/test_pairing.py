@@ -10,19 +10,15 @@ from hypothesis import given, strategies as st
 from scipy import stats
 
 from uictest.analysis.comparison import (
-    Draw,
     Tolerances,
-    compare_runs,
     compare_variants,
     comparison_document,
     comparison_html,
     comparison_json,
-    paired_group,
-    variants_document,
-    variants_html,
     variants_json,
 )
-from uictest.analysis.comparison.paired_stops import drawn_stops
+from uictest.analysis.comparison.paired_stops import Draw, drawn_stops, paired_group
+from uictest.analysis.comparison.runs import compare_runs
 from uictest.judging.evaluation import EffectivePart, Parameter, effective_parts
 from uictest.plans.scenario import load
 from uictest.report import RunContent, document_lines
@@ -95,30 +91,37 @@ def test_what_does_not_pair_is_named_with_its_reason():
     second = [make_repeated(AFTER, noise_key="00000001")]
     found = _compared(first, second)
     assert found.paired.groups == ()
-    assert [each.name for each in found.paired.not_paired] == ["alone", "slip"]
-    lines = document_lines(comparison_document(found), None)
-    alone, other_noise = (line for line in lines if line.startswith("not paired"))
-    assert alone == "not paired: alone: only one has it"
-    assert other_noise.startswith("not paired: slip: the stops met other noise: ")
+    assert [each.name for each in found.paired.not_paired] == ["slip", "alone"]
+    other_noise, alone = found.answer.conditions
+    assert (alone.standing, alone.remark) == ("not comparable", "only one has it")
+    assert other_noise.remark.startswith("the stops met other noise: ")
 
 
-def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs():
-    alone = _single(make_repeated({1: 0.0}), 1, 500.0, {})
-    found = _compared([alone], [_single(make_repeated({1: 0.0}), 1, 490.0, {})])
-    assert (found.paired.groups, found.paired.not_paired) == ((), ())
+def test_single_stops_are_compared_without_an_interval_and_shown_to_differ_by_more_than_a_percent():
+    def standing(distance):
+        sides = ([_single(make_repeated({1: 0.0}), 1, each, {})] for each in (500.0, distance))
+        found = _compared(*sides)
+        (group,) = found.paired.groups
+        assert (group.pairs, math.isnan(group.differences[0].mean.low)) == (1, True)
+        assert "no intervals" in found.answer.basis
+        return found.answer.standing
+
+    assert [standing(each) for each in (490.0, 496.0, 510.0)] == ["better", "no difference shown", "worse"]
     same = [make_repeated(BEFORE)]
-    assert list(document_lines(comparison_document(_compared(same, same)), None)) == []
+    lines = list(document_lines(comparison_document(_compared(same, same)), None))
+    assert lines[0] == "other against one: no difference shown."
+    assert lines[1] == "No verdict turned."
 
 
 def test_terminal_json_and_page_have_the_method_and_the_numbers():
     found = _compared([make_repeated(BEFORE)], [make_repeated({**AFTER, 4: 500.0})])
-    lines = list(document_lines(comparison_document(found), None))
-    paired = lines.index("paired: slip: 3 pairs, seeds 1..3; without a partner: 0 of one, 1 of other")
-    assert "Student's t" in lines[paired - 1]
-    assert "order statistics" in lines[paired - 1]
-    row = lines[paired + 2].split("  ")
+    lines = list(document_lines(comparison_document(found, every=True), None))
+    assert lines[0] == "other against one: better, braking distance 10.33 m shorter (±3.8 m, 3 pairs)."
+    assert any("Student's t" in line for line in lines)
+    paired = lines.index("slip: 3 pairs, seeds 1..3; without a partner: 0 of one, 1 of other")
+    row = next(line for line in lines[paired:] if line.startswith("braking_distance_m")).split("  ")
     assert [cell.strip() for cell in row if cell.strip()] == [
-        *("braking_distance_m", "510", "501", "-10.333", "-2.03", "-14.128 .. -6.5388"),
+        *("braking_distance_m", "510", "501", "-10.33", "-2.03", "-14.13 .. -6.539"),
         *("-10", "-", "0 of 3", "m"),
     ]
     document = json.loads(comparison_json(found))
@@ -129,7 +132,7 @@ def test_terminal_json_and_page_have_the_method_and_the_numbers():
     assert distance["median"]["low"] is None
     assert distance["mean"]["method"] == "mean"
     html = comparison_html(found)
-    assert "-14.128 .. -6.5388" in html
+    assert "-14.13 .. -6.539" in html
     assert "Student" in html
 
 
@@ -141,26 +144,28 @@ def test_variants_of_a_run_are_compared_with_the_first():
 
     cases = [case("a", "0.07", BEFORE), case("a", "0.09", BEFORE), case("b", "0.07", AFTER)]
     cases += [case("c", "0.09", AFTER), make_repeated(BEFORE, "plain")]
-    found = compare_variants(RunContent("run", cases), ["controller"])
+    found = compare_variants(RunContent("run", cases), ["controller"], Tolerances())
     assert [(each.first, each.second) for each in found] == [
         ("controller=a", "controller=b"),
         ("controller=a", "controller=c"),
     ]
-    groups = [group.name for each in found for group in each.groups]
+    groups = [group.name for each in found for group in each.paired.groups]
     assert groups == ["slip[rail.friction=0.07]", "slip[rail.friction=0.09]"]
-    assert found[0].not_paired[0].reason == "only controller=a has it"
-    assert "controller=b against controller=a" in list(document_lines(variants_document(found), None))
+    assert [each.answer.standing for each in found] == ["better", "better"]
+    assert found[0].paired.not_paired[0].reason == "only controller=a has it"
+    lines = list(document_lines(comparison_document(*found), None))
+    assert sum(line.startswith("controller=b against controller=a: better") for line in lines) == 1
     document = json.loads(variants_json("run", found))
     assert (document["kind"], len(document["variants"])) == ("variants", 2)
-    assert "slip[rail.friction=0.07]" in variants_html("run", found)
+    assert "slip[rail.friction=0.07]" in comparison_html(*found, run="run")
 
 
 def test_keys_that_tell_no_variants_apart_are_refused():
     run = RunContent("run", [make_repeated(BEFORE, parameters={"controller": "a"})])
     with pytest.raises(ValueError, match="did you mean 'controller'"):
-        compare_variants(run, ["controler"])
+        compare_variants(run, ["controler"], Tolerances())
     with pytest.raises(ValueError, match="one variant only, controller=a"):
-        compare_variants(run, ["controller"])
+        compare_variants(run, ["controller"], Tolerances())
 
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)
@@ -287,7 +292,7 @@ FIRST, SECOND = (f"the noise of the {side} side is not known" for side in ("firs
         (_stops([1.0, 2.0], key=""), _stops([1.0, 2.0]), f"{FIRST}: its stops are recorded"),
         (_stops([1.0, 2.0]), _stops([1.0, 2.0], key=""), SECOND),
         (_stops([1.0, 2.0], key=""), _stops([1.0, 2.0], key=""), FIRST.removeprefix("the ")),
-        ({Draw("", "ab", None): {}}, {Draw("", "ab", None): {}}, "no known seed; no known seed"),
+        ({Draw("", "ab", None): {}}, {Draw("", "ab", None): {}, **_stops([1.0])}, "no known seed; seed 0"),
         (_stops([]), _stops([1.0, 2.0]), "no stop of the first side has measures"),
     ],
 )

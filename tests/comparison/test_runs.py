@@ -7,21 +7,21 @@ import pytest
 
 from uictest.analysis.comparison import (
     Baseline,
-    ParameterChange,
-    ParameterOfRun,
     Scope,
     Tolerance,
     Tolerances,
     compare_recordings,
-    compare_runs,
     comparison_document,
     comparison_html,
     verdict_line,
 )
-from uictest.analysis.comparison.parameters import change_text
+from uictest.analysis.comparison.comparison_document import differing_table
+from uictest.analysis.comparison.parameters import ParameterChange, change_text
+from uictest.analysis.comparison.runs import compare_runs
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging.evaluation import EffectivePart, Parameter
-from uictest.report import RunContent, document_lines
+from uictest.report import RunContent, document_lines, table_lines
+from uictest.report.difference import worst_of_wheelsets
 from uictest.report.page import page_html
 from uictest.report.run_folder import baseline_form, read_baseline_comparison
 from uictest.report.traces.trace import trace_of
@@ -142,13 +142,13 @@ def test_the_parameter_that_changed_is_named_and_is_no_difference():
     found = compared(controller(4), controller(3))
     assert (found.agrees, list(found.notes)) == (True, [])
     found = compared(controller(4), controller(3), braking_distance_m=470.0)
-    sides = ParameterOfRun(4 / 3.6, "m/s", "4 km/h"), ParameterOfRun(3 / 3.6, "m/s", "3 km/h")
-    assert found.parameters == [ParameterChange("controller.slip_threshold", *sides, ("dry-120",))]
+    change = ParameterChange("controller.slip_threshold", "4 km/h", "3 km/h", ("dry-120",))
+    assert found.parameters == [change]
     lines = document_lines(comparison_document(found), None)
     assert "parameter controller.slip_threshold: 4 km/h -> 3 km/h (in dry-120)" in lines
     assert found.to_dict()["parameters"][0]["second"] == "3 km/h"
     html = comparison_html(found)
-    assert '<td data-label="A">4 km/h</td><td data-label="B">3 km/h</td>' in html
+    assert '<td data-label="first">4 km/h</td><td data-label="second">3 km/h</td>' in html
     assert "var uPlot=" not in html  # nothing is drawn
     # Another part is named as well as its parameters.
     assert [change_text(change) for change in compared(controller(4), controller(3, "mine")).parameters] == [
@@ -184,33 +184,37 @@ COMPARED = 1 + 1 + len(STOP_COLUMNS) + 2 * len(WHEELSET_COLUMNS)
 HOSTILE = "\x1b[31m=cmd() <b>x</b></script>\u202e"
 
 
-def test_only_what_is_out_of_tolerance_is_shown_unless_asked():
+def test_what_is_out_of_tolerance_stands_first_and_what_is_the_same_nowhere():
     found = compare_runs(make_run(), make_run(braking_distance_m=470.0, braking_time_s=27.51), DEFAULT)
-    heading, line = document_lines(comparison_document(found), None)
-    assert " ".join(heading.split()) == "verdict case quantity first second deviation allowed unit"
-    assert line.split()[:5] == ["differs", "dry-120", "braking_distance_m", "465", "470"]
-    rows = document_lines(comparison_document(found, every=True), None)
-    assert [row.split()[0] for row in rows][1:] == ["differs", "within"]
+    *heading, _, _ = rows = list(table_lines(differing_table(found.differences, found.subjects), None))
+    expected = "verdict case quantity first second change % of allowed unit first"
+    assert " ".join(" ".join(heading).split()) == expected
+    rows = rows[len(heading) :]
+    assert [row.split()[0] for row in rows] == ["differs", "within"]
+    assert "(braking_distance_m)" in rows[0]
+    assert rows[0].split()[-6:] == ["465", "470", "+5", "+1.08", "0.47", "m"]
+    # The terminal has them where they are asked for.
+    for every in (False, True):
+        lines = document_lines(comparison_document(found, every=every), None)
+        assert any(line in rows for line in lines) == every
     said = f"{COMPARED} quantities compared: 1 out of tolerance, 1 different within tolerance"
     assert verdict_line(found) == said
-    # Nothing is shown of what is the same.
     found = compare_runs(make_run(), make_run(), DEFAULT)
-    assert list(document_lines(comparison_document(found, every=True), None)) == []
     assert verdict_line(found) == f"{COMPARED} quantities compared, no difference"
     assert (found.agrees, list(found.differences), list(found.notes)) == (True, [], [])
+    assert found.answer.verdict == "No difference shown between run and run"
 
 
-@pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
+@pytest.mark.parametrize("width", [60, 80, 100, 120, 200])
 def test_on_a_narrow_terminal_the_case_stands_above_its_figures(width):
     case_id = "wet-80-friction[friction=0.10,command=80]"
     changes = {"braking_distance_m": 470.0, "verdict": "fail"}
     found = compare_runs(make_run(case_id=case_id), make_run(case_id=case_id, **changes), DEFAULT)
-    lines = list(document_lines(comparison_document(found), width))
+    lines = list(table_lines(differing_table(found.beyond, ("A", "B")), width))
     assert max(len(line) for line in lines if not line.startswith("not shown")) <= width
-    assert case_id in "".join(line.strip() for line in lines[:2])
     assert any({"465", "470"} <= set(line.split()) for line in lines)
-    hidden = [name for name in ("deviation", "allowed", "unit") if name not in "".join(lines[:3])]
-    assert [name for name in hidden if name not in lines[-1]] == []
+    hidden = [name for name in ("% of A", "allowed") if name not in "".join(lines[:3])]
+    assert [name for name in hidden if name not in " ".join(lines[-3:])] == []
 
 
 def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page():
@@ -228,17 +232,11 @@ def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page():
     assert "&lt;b&gt;x&lt;/b&gt;" in html
 
 
-def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for():
+def test_the_worst_wheelset_stands_for_all():
     before, after = make_run(), make_run()
     slid = [{**after.results[0].wheelsets[0], "maximum_slide": slide} for slide in (0.3, 0.4)]
     after = RunContent("after", [replace(after.results[0], wheelsets=tuple(slid))])
     found = compare_runs(before, after, DEFAULT)
-
-    def differing(**options):
-        lines = document_lines(comparison_document(found, **options), None)
-        return [line.split() for line in lines if line.startswith("differs")]
-
-    (row,) = differing()
-    assert row[2:5] == ["maximum_slide_2", "0.02", "0.4"]
-    assert row[7:] == ["1", "worst", "of", "2", "wheelsets"]
-    assert [row[2] for row in differing(every=True)] == ["maximum_slide_1", "maximum_slide_2"]
+    assert [each.quantity for each in found.beyond] == ["maximum_slide_1", "maximum_slide_2"]
+    (worst,) = worst_of_wheelsets(found.beyond)
+    assert (worst.quantity, worst.remark) == ("maximum_slide_2", "worst of 2 wheelsets")

@@ -8,22 +8,16 @@ from uictest.analysis.comparison import (
     Scope,
     Tolerances,
     accepted_document,
-    compare_runs,
     compare_variants,
     comparison_document,
 )
+from uictest.analysis.comparison.runs import compare_runs
 from uictest.core.series_measures import SeriesValue, mean_of
 from uictest.judging import series
 from uictest.judging.evaluation import Verdict
 from uictest.plans.scenario import PASS
-from uictest.report import (
-    RunContent,
-    document_lines,
-    junit_text,
-    missing_annotations,
-    missing_lines,
-    run_suites,
-)
+from uictest.report import RunContent, document_lines, junit_text
+from uictest.report.ci_server import missing_annotations, run_suites
 from uictest.report.run_folder import baseline_form, read_baseline_comparison
 
 from .conftest import make_repeated
@@ -66,7 +60,7 @@ def test_a_series_and_itself_agree_and_verdicts_counts_and_measures_are_compared
     assert found.agrees
     # The outcome, a criterion, the dry and the wet stops that count, two measures.
     assert found.compared == 6
-    assert list(document_lines(comparison_document(found), None)) == []
+    assert found.answer.standing == "no difference shown"
     (missing,) = _compared(before, []).beyond
     assert (missing.case, missing.first, missing.second) == ("acceptance", "pass", "missing")
     found = _compared(before, [make_series([500.0, 530.0], "fail", not_counted=LEFT_OUT)])
@@ -99,8 +93,8 @@ def test_stops_of_a_series_that_met_the_same_noise_are_told_apart():
     found = _compared([make_series([500.0, 510.0], keys=keys)], [make_series([501.0, 513.0], keys=keys)])
     (group,) = found.paired.groups
     assert (group.pairs, group.draws) == (4, 2)
-    lines = document_lines(comparison_document(found), None)
-    (line,) = (each for each in lines if each.startswith("paired: acceptance"))
+    lines = document_lines(comparison_document(found, every=True), None)
+    (line,) = (each for each in lines if each.startswith("acceptance, wet stops from 120 km/h: 4 pairs"))
     assert "only 2 draws of noise, so that the intervals are too narrow" in line
 
 
@@ -109,9 +103,9 @@ def test_series_of_one_run_pair_over_the_keys_that_make_them():
         make_series([500.0, 510.0], name="wsp[controller=a]", parameters={"controller": "a"}),
         make_series([490.0, 500.0], name="wsp[wsp=bypassed]", parameters={"rig.wsp": "bypassed"}),
     ]
-    (found,) = compare_variants(_run(*variants), ["controller", "rig.wsp"])
+    (found,) = compare_variants(_run(*variants), ["controller", "rig.wsp"], Tolerances())
     assert (found.first, found.second) == ("controller=a", "rig.wsp=bypassed")
-    (group,) = found.groups
+    (group,) = found.paired.groups
     assert (group.name, group.pairs) == ("wsp, wet stops from 120 km/h", 4)
     distance = next(each for each in group.differences if each.quantity == "braking_distance_m")
     assert distance.mean.value == -10.0
@@ -138,10 +132,9 @@ def test_a_baseline_compares_verdicts_and_measures_of_series():
     same = baseline.compare(_run(before))
     assert (same.agrees, same.compared, same.within, dict(same.series)) == (True, 6, 0, {})
     found = baseline.compare(_run(make_series([500.0, 530.0], "fail")))
-    assert _shown(found.all_differences) == [
-        ("acceptance", "criterion k-wet", "pass", "fail"),
-        ("acceptance", "deceleration_distance_extension", 45.0, 55.0),
-    ]
+    assert _shown(found.all_differences) == [("acceptance", "criterion k-wet", "pass", "fail")]
+    # No criterion judges it.
+    assert _shown(found.informing) == [("acceptance", "deceleration_distance_extension", 45.0, 55.0)]
     assert found.series == {"acceptance": "acceptance.series.yaml"}
     # One that is new, or that its file no longer has, differs.
     new, old = make_series([500.0], name="new"), make_series([500.0], name="old")
@@ -176,7 +169,6 @@ def test_a_series_that_differs_is_in_every_report_for_machines():
     suites = ElementTree.fromstring(junit_text(run_suites(content)))
     failure = suites.find(".//testcase[@name='acceptance']/failure")
     assert (failure.get("type"), failure.text) == ("baseline", sentence)
-    assert list(missing_lines(found)) == [f"differs acceptance reason={sentence}"]
     assert list(missing_annotations(found)) == [
         f"::error file=acceptance.series.yaml,title=differs acceptance::{sentence}"
     ]

@@ -12,7 +12,7 @@ from uictest.cli.entry import application
 REPOSITORY = Path(__file__).parents[2]
 _CODE = re.compile(r"^```[^\n]*\n(.*?)^```|((?:^    \S[^\n]*\n)+)", re.MULTILINE | re.DOTALL)
 _CALL = re.compile(r"^\s*(?:\$ |- (?:run: )?|entry: |sh '|srun )?(?:[\w./-]*/)?uictest (\S.*)$")
-_END_OF_CALL = re.compile(r" \| |; | > | 2>| &&|  #|' *$|\\$| &$")
+_END_OF_CALL = re.compile(r" \| |; | > | 2>| &&|  #|(?<!\])' *$|\\$| &$")
 _IN_PROSE = re.compile(r"`uictest ([^`]*)`")
 
 

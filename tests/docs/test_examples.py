@@ -188,11 +188,6 @@ def is_of_slow_study(block):
     return any(f"./reproduce {each}" in block.text for each in SLOW_STUDIES)
 
 
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
 def commands_of(line):
     """The commands of a line, one after the other."""
     loop = LOOP.fullmatch(line)
@@ -201,7 +196,7 @@ def commands_of(line):
     return [each for seed in loop[1].split() for each in commands_of(loop[2].replace("$seed", seed))]
 
 
-def output_of(line, folder, on_terminal):
+def output_of(line, folder):
     """What a line of a page prints: ours and its scripts in this process, what else there is in a shell."""
     from consoles import in_shell
 
@@ -211,18 +206,18 @@ def output_of(line, folder, on_terminal):
         if command == CODE:
             shown += f"exit code {code}\n"
         elif call is None:
-            shown += in_shell(command, folder, on_terminal)
+            shown += in_shell(command, folder)
         else:
-            text, code = called(call, folder, on_terminal)
+            text, code = called(call, folder)
             shown += text
     return shown
 
 
-def called(call, folder, on_terminal):
+def called(call, folder):
     """What a call of ours shows, and its exit code."""
     from consoles import environment
 
-    shown = Terminal() if on_terminal else io.StringIO()
+    shown = io.StringIO()
     out = io.StringIO() if call["filter"] else shown
     lost = (call["lost"] or "").strip()
     with (

@@ -8,8 +8,7 @@ import pytest
 from uictest.plans.scenario import ScenarioErrors
 from uictest.recorded.field_data import RawChannel, recorded_description, stated_case
 from uictest.recorded.field_data.raw_channels import with_valve_commands
-from uictest.report import subjects_form
-from uictest.report.run_folder import read_subjects
+from uictest.report.run_folder import read_subjects, subjects_form
 
 
 def test_what_is_stated_becomes_a_case_and_what_is_not_acceptable_is_refused():

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
+import uictest
 from uictest.core.measures import (
     MEASURES,
     STOP_COLUMNS,
@@ -164,3 +166,19 @@ def test_importing_the_catalogue_imports_no_numpy():
     code = "import sys; from uictest.core.measures import MEASURES; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.strip() == "False"
+
+
+def test_the_better_values_of_a_measure_lie_where_the_requirements_that_ship_want_them():
+    """A requirement with an upper bound alone wants small values, one with a lower bound alone large ones."""
+    folder = Path(uictest.__file__).parent / "plans/library/criteria"
+    criteria = [
+        each for path in folder.glob("*.yaml") for each in yaml.safe_load(path.read_text())["criteria"]
+    ]
+    wanted = {
+        each["measure"]: "smaller" if "upper" in each else "larger"
+        for each in criteria
+        if each.get("layer") == "requirement" and ("upper" in each) != ("lower" in each)
+    }
+    assert len(wanted) > 5
+    shipped = {name: MEASURES[name].better for name in wanted if name in MEASURES}
+    assert shipped == {name: better for name, better in wanted.items() if name in MEASURES}

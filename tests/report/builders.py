@@ -10,7 +10,8 @@ from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.plans.scenario import expectation_of
-from uictest.report import RunContent, RunManifest, csv_cell
+from uictest.report import RunContent, RunManifest
+from uictest.report.words import csv_cell
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 """A text with terminal codes, formula, markup, XML, null, direction override and workflow command."""

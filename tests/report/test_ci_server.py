@@ -9,8 +9,8 @@ from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.plans.scenario import expectation_of
 from uictest.report.ci_server import (
     annotation,
-    case_annotations,
     missing_annotations,
+    run_annotations,
     run_suites,
     series_annotations,
     series_suite,
@@ -25,10 +25,16 @@ def suites(*results, named=False, **changes):
     return list(run_suites(make_content(*results, **changes), with_properties=named))
 
 
+def annotations(*results, **changes):
+    return list(run_annotations(make_content(*results, **changes)))
+
+
 def told(*results, **changes):
     return [testcase for suite in suites(*results, **changes) for testcase in suite.testcases]
 
 
+ID = "dry-120[command=90]"
+AGAIN = f"run again: uictest run scenarios/dry/120.yaml -k '{ID}'"
 BROKEN = make_verdict(status="fail", value=500.0, margin=-10.0, reason="500 m misses 440 .. 490 m")
 ABSENT = make_verdict(status="not_applicable", value=None, margin=None, reason="the rail is dry")
 DIFFERS = Difference("a", "braking_distance_m", 1.0, 2.0, False, "m", 1.0, 0.1)
@@ -53,9 +59,10 @@ def test_a_missed_case_has_value_and_limit_in_its_message_and_everything_in_its_
     (testcase,) = told(make_result(outcome="invalid", criteria=(BROKEN,), reason="braking-distance: ..."))
     assert testcase.status == "failure"
     assert testcase.lines == [
-        "invalid: braking-distance 500 m, limits 440 .. 490 m. Expected: pass",
+        "invalid: braking-distance 500 m (440 to 490 m). Expected: pass",
         "test validity: not valid (braking-distance); requirements: not judged",
         "braking-distance (validity) fail: 500 m misses 440 .. 490 m",
+        AGAIN,
     ]
 
 
@@ -82,7 +89,7 @@ def test_what_differs_from_the_baseline_fails_and_what_is_missing_has_a_testcase
     differing, lost = told(make_result(id="a"), baseline=BASELINE)
     assert (differing.status, differing.kind) == ("failure", "baseline")
     assert differing.lines[0] == "pass (as expected). Differs from the baseline"
-    deviation = "baseline: braking_distance_m was 1 m, is 2 m; deviation 1 m, tolerance 0.1 m"
+    deviation = "baseline: braking_distance_m was 1 m, is 2 m (+1; ±0.1 m allowed)"
     assert deviation in differing.lines
     assert (lost.class_name, lost.name, lost.status, lost.kind) == ("b", "lost", "failure", "baseline")
     assert list(lost.lines) == [deviation]
@@ -147,7 +154,7 @@ def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_i
     [
         (make_series(), {"k-wet": "passed"}, "dry 2 of 2, wet 5 of 6"),
         (MISSED, {"k-wet": "failure"},
-         "k-wet (requirement) fail: 0.86957 from 120 km/h, lower limit 0.9, margin -0.03",),
+         "k-wet fail: 0.8696 (0.9 needed) from 120 km/h",),
         (replace(MISSED, expect=expectation_of("fail")), {"k-wet": "passed"}, "1 stop invalid, not counted"),
         (make_series(expect="fail"), {"k-wet": "passed", "outcome": "failure"}, "pass. Expected: fail"),
         (make_series(outcome="error", reason="1 of 7 stops failed to run; it broke"), {"k-wet": "passed",
@@ -198,15 +205,15 @@ def test_an_annotation_carries_its_level_and_the_place_in_the_file(told, command
 
 
 def test_only_what_is_not_met_is_annotated_and_a_hostile_name_cannot_start_a_command_of_its_own():
-    assert list(case_annotations(make_result())) == list(series_annotations(make_series())) == []
-    assert list(case_annotations(make_result(outcome="fail", criteria=(), reason="locked"))) == [
-        "::error file=scenarios/dry/120.yaml,title=fail dry-120[command=90]::fail. Expected: pass%0Alocked"
+    assert annotations(make_result()) == list(series_annotations(make_series())) == []
+    assert annotations(make_result(outcome="fail", criteria=(), reason="locked")) == [
+        f"::error file=scenarios/dry/120.yaml,title=fail {ID}::fail. Expected: pass%0Alocked%0A{AGAIN}"
     ]
     (line,) = series_annotations(MISSED)
     assert line.startswith("::error file=tests/acceptance.series.yaml,title=fail acceptance::fail: k-wet")
-    (differs,) = case_annotations(make_result(id="a"), [DIFFERS])
+    differs, _ = annotations(make_result(id="a"), baseline=BASELINE)
     assert differs.startswith("::error file=scenarios/dry/120.yaml,title=differs a::pass (as expected)")
-    (line,) = case_annotations(make_result(id=HOSTILE, scenario=HOSTILE, outcome="error", reason=HOSTILE))
+    (line,) = annotations(make_result(id=HOSTILE, scenario=HOSTILE, outcome="error", reason=HOSTILE))
     assert line.startswith("::error file=")
     assert not set("\n\r\x00\x1b\u202e") & set(line)
     assert line.split("::")[1].count(",") == 1

@@ -13,6 +13,7 @@ from uictest.judging.evaluation import (
     Turn,
     VerdictFirmness,
 )
+from uictest.report import BaselineComparison, Difference
 from uictest.report.ci_server import case_annotations, run_suites
 from uictest.report.robustness import (
     band_text,
@@ -28,6 +29,7 @@ from uictest.report.robustness import (
     wheelset_cells,
 )
 from uictest.report.run_publication import cases_table, criteria_table, wheelsets_table
+from uictest.report.run_text import run_lines
 
 from .builders import make_content, make_result, make_verdict
 
@@ -140,14 +142,15 @@ def test_every_stop_has_a_row():
 
 def test_a_ci_server_is_told_which_stops():
     results = [make_repeated("ppf", "at_least", 0.6), make_repeated("pff", id="b", outcome="fail")]
-    (suite,) = run_suites(make_content(*results))
+    content = make_content(*results)
+    (suite,) = run_suites(content)
     failed, met = suite.testcases
     assert met.lines[0].startswith("3 stops, seeds 0..2: 2 pass (seeds 0, 1), 1 fail")
     assert any(line.startswith("3 stops, seeds 0..2: 1 pass (seed 0), 2 fail") for line in failed.lines)
-    (notice,) = case_annotations(results[0])
+    (notice,) = case_annotations(content, results[0])
     assert notice.startswith("::notice file=scenarios/dry/120.yaml,title=pass 2/3 dry-120")
-    assert list(case_annotations(make_repeated("ppp"))) == []
-    (error,) = case_annotations(results[1])
+    assert list(case_annotations(content, make_repeated("ppp"))) == []
+    (error,) = case_annotations(content, results[1])
     assert error.startswith("::error ")
 
 
@@ -204,6 +207,15 @@ def test_how_firm_a_case_is_and_which_numbers_turn_it(varied, sentences, named):
     result = make_result(firmness=varied)
     assert list(firmness_sentences(result)) == sentences
     assert firmness_property(result) == (named and {"firmness": named})
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_how_firm_a_case_is_stands_among_the_close_or_else_above_them(quiet):
+    cases = [make_result(id=f"case-{k}", firmness=firmness()) for k in range(10)]
+    differs = {case.id: [Difference(case.id, "stops", "1", "2", within=False)] for case in cases}
+    content = make_content(*cases, baseline=BaselineComparison("kept", "00", differences=differs))
+    lines = [line.strip() for line in run_lines(content, 10_000, quiet=quiet)]
+    assert all(lines.count(f"{case.id}: pass is {IN_98}") == 1 for case in cases)
 
 
 def test_numbers_are_listed_by_what_they_do_to_a_verdict():

@@ -13,6 +13,7 @@ from uictest.report.series_report import (
     is_uncertain,
     not_counted_sentences,
     series_criteria_table,
+    series_explanation,
     series_lines_of_terminal,
     series_sections,
     series_tables,
@@ -50,10 +51,10 @@ NAN = float("nan")
     ("estimate", "words", "value"),
     [
         (Estimate(0.87, 0.85, 0.89, 0.95, "mean", 5, 0.8, 0.9, dry_stops=2),
-         "mean of 5 stops over 2 dry, 95 % interval 0.85 .. 0.89 by Fieller's theorem", "0.87 (0.85 .. 0.89)",
+         "mean of 5 stops over 2 dry, 95 % interval 0.85 to 0.89", "0.87 (0.85 to 0.89)",
          ),
         (Estimate(1.0, 0.5, 1.5, 0.95, "median", 9, 0.0, 2.0),
-         "median of 9 stops, 95 % interval 0.5 .. 1.5 by order statistics", "1 (0.5 .. 1.5)",),
+         "median of 9 stops, 95 % interval 0.5 to 1.5", "1 (0.5 to 1.5)",),
         (Estimate(1.0, NAN, NAN, 0.95, "mean", 1, 1.0, 1.0),
          "mean of 1 stop, too few for a 95 % interval: 2 are needed", "1",),
         (Estimate(1.0, NAN, NAN, 0.95, "median", 3, 1.0, 1.0),
@@ -69,16 +70,15 @@ def test_an_estimate_says_how_it_was_made_and_how_sure_it_is(estimate, words, va
     assert value_with_interval(None) == "-"
 
 
-def test_a_verdict_has_value_limit_margin_and_confidence_on_one_line():
+def test_a_verdict_has_value_limit_and_confidence_on_one_line():
     line = series_verdict_sentence(K_WET, 0.95)
-    assert line.startswith(
-        "k-wet (requirement) pass: 0.86957 from 120 km/h, lower limit 0.8, margin 0.069565; mean"
-    )
-    assert "mean of 5 stops over 2 dry, 95 % interval 0.8" in line
+    assert line.startswith("k-wet pass: 0.8696 (0.8 needed) from 120 km/h; mean of 5 stops over 2 dry, 95 %")
+    uncertain = series_verdict_sentence(replace(K_WET, confident=False), 0.95)
+    assert uncertain.startswith(f"{line}; not certain: ")
     absent = replace(K_WET, verdict=replace(K_WET.verdict, value=None, reason="no stop"), estimate=None)
-    assert series_verdict_sentence(absent, 0.95) == "k-wet (requirement) pass: no stop"
+    assert series_verdict_sentence(absent, 0.95) == "k-wet pass: no stop"
     shares = replace(K_WET, kept=4, stops=5)
-    assert "; 4 of 5 stops keep it, 95 % interval of the share 28.36 % .. 99.49 %" in series_verdict_sentence(
+    assert "; 4 of 5 stops keep it, 95 % interval of the share 28.36 % to 99.49 %" in series_verdict_sentence(
         shares, 0.95
     )
 
@@ -90,7 +90,7 @@ def test_stops_that_count_and_those_that_do_not_are_said_in_any_width_with_the_f
     ]
     reasons = [UncountedStop("wet", "wet", seed, "invalid", f"reason {seed}") for seed in range(5)]
     assert list(not_counted_sentences(make_series(not_counted=reasons))) == [
-        "5 stops invalid, not counted: reason 0; reason 1; reason 2; 2 more reasons"
+        "5 stops invalid, not counted: reason 0; 4 more reasons"
     ]
     for width in (60, 100, 200):
         text = " ".join(" ".join(series_lines_of_terminal([RESULT], width)).split())
@@ -126,6 +126,8 @@ def test_tables_have_a_row_per_measure_criterion_and_stop():
 def test_people_see_a_verdict_that_is_not_certain_and_series_side_by_side():
     (judged,) = criteria_of(UNCERTAIN).rows
     assert (judged.verdict_text, judged.tone) == ("pass, not certain", "odd")
+    (failing, passing) = criteria_of(replace(RESULT, criteria=(K_WET, *MISSED.criteria))).rows
+    assert (failing.criterion.verdict.status, passing.criterion.verdict.status) == ("fail", "pass")
     table = comparison_table([RESULT, MISSED, UNCERTAIN, replace(RESULT, criteria=())])
     compared = {column.heading: texts for column, texts in table.for_people}
     assert compared["verdict"] == ["pass", "fail", "pass", "pass"]
@@ -139,3 +141,15 @@ def test_hostile_texts_stay_one_line():
     not_counted = (UncountedStop(HOSTILE, "wet", 1, "invalid", HOSTILE),)
     result = make_series(id=HOSTILE, title=HOSTILE, not_counted=not_counted, outcome="error", reason=HOSTILE)
     assert all(line.isprintable() for line in series_lines_of_terminal([result], 80))
+
+
+def test_criteria_without_a_value_for_the_same_reason_are_told_once():
+    absent = replace(K_WET.verdict, value=None, status="inconclusive", reason="no dry stop counts")
+    named = [replace(K_WET, verdict=replace(absent, id=name), estimate=None) for name in ("k-wet", "longest")]
+    missed = make_series(criteria=(*named, *MISSED.criteria), outcome="fail")
+    (outcome, sure) = series_explanation(missed)
+    assert (
+        outcome == "fail: k-wet 0.8696 (0.9 needed) from 120 km/h; k-wet, longest: no dry stop counts."
+        " Expected: pass"
+    )
+    assert sure.startswith("k-wet: mean of 5 stops over 2 dry, 95 % interval")

@@ -17,7 +17,7 @@ from uictest.report.verdict_sentences import (
     missed_by_text,
     reading_sources,
     tally,
-    value_and_limits,
+    value_with_limit,
     verdict_sentence,
     without_checks_that_hold,
 )
@@ -31,19 +31,16 @@ SHARE = {"value": 0.0, "unit": "%", "lower": 35.0, "upper": None}
 @pytest.mark.parametrize(
     ("verdict", "said"),
     [
-        (limits(make_verdict()), "limits 440 .. 490 m"),
+        (limits(make_verdict()), "440 .. 490 m"),
         (limits(make_verdict(upper=None)), "lower limit 440 m"),
         (limits(make_verdict(lower=None, upper=0.08)), "upper limit 0.08 m"),
         (limits(make_verdict(lower=None, upper=None)), "no limit"),
-        (value_and_limits(make_verdict(measure="sliding_share", **SHARE)),
-         "0 % of the time, lower limit 35 %",),
-        (value_and_limits(make_verdict(measure="maximum_slide_above_cutoff", **SHARE)),
-         "0 %, lower limit 35 %",),
+        (value_with_limit(make_verdict(measure="sliding_share", **SHARE)), "0 % of the time (35 % needed)"),
+        (value_with_limit(make_verdict(measure="maximum_slide_above_cutoff", **SHARE)), "0 % (35 % needed)"),
         (verdict_sentence(make_verdict()),
-         "braking-distance (validity) pass: 465.25 m, limits 440 .. 490 m, margin 24.75 m",),
-        # The margin of a share is in points: per cent are those of the limit.
+         "braking-distance (validity) pass: 465.2 m (440 to 490 m)",),
         (verdict_sentence(make_verdict(value=100.0, unit="%", lower=90.0, upper=None, margin=10.0)),
-         "braking-distance (validity) pass: 100 %, lower limit 90 %, margin 10 points",),
+         "braking-distance (validity) pass: 100 % (90 % needed)",),
         (verdict_sentence(make_verdict(status="not_applicable", reason="the rail is dry")),
          "braking-distance (validity) not applicable: the rail is dry",),
         (missed_by_text(make_verdict(missed_by=()), 4), ""),
@@ -54,7 +51,7 @@ SHARE = {"value": 0.0, "unit": "%", "lower": 35.0, "upper": None}
         (missed_by_text(make_verdict(missed_by=(1,)), 1), ""),
     ],
 )  # fmt: skip
-def test_a_verdict_says_value_limit_and_margin(verdict, said):
+def test_a_verdict_says_value_and_limit(verdict, said):
     assert verdict == said
 
 
@@ -98,11 +95,11 @@ CHECK = make_verdict(
          "test validity: not judged; requirements: not judged",
          "braking-distance (validity) inconclusive: ends after 2 s",]),
         ({"outcome": "fail", "criteria": (make_verdict(), TOO_LONG)},
-         ["fail: x 3 s, upper limit 1 s. Expected: pass", "test validity: valid; requirements: missed (x)",
+         ["fail: x 3 s (limit 1 s). Expected: pass", "test validity: valid; requirements: missed (x)",
          "x (requirement) fail: 3 s",]),
         # A failed check comes first: the figures of the stop are not those of the test.
         ({"outcome": "invalid", "criteria": (TOO_LONG, CHECK)},
-         ["invalid: balance 3 %, upper limit 0.1 %. Expected: pass",
+         ["invalid: balance 3 % (limit 0.1 %). Expected: pass",
          "test validity: not valid (balance); requirements: missed (x)", "balance (rig) fail: 3 %",
          "x (requirement) fail: 3 s",]),
         ({"outcome": "error", "criteria": (), "reason": "ValueError: x"}, ["error. Expected: pass",
@@ -120,7 +117,7 @@ def test_a_strict_case_that_is_not_settled_is_bad_and_a_drawn_stop_says_when_a_v
     strict = make_result(strict=True, criteria=(make_verdict(sensitivity=(TURNING,)),))
     assert (result_word(strict), tone("unsettled")) == ("unsettled", "bad")
     outcome, _, line = explanation(make_result(outcome="fail", criteria=(TOO_LONG,)), {"x": "12 s"})
-    assert outcome == "fail: x 3 s, upper limit 1 s, at 12 s. Expected: pass"
+    assert outcome == "fail: x 3 s (limit 1 s), at 12 s. Expected: pass"
     assert line == "x (requirement) fail: 3 s (taken at 12 s)"
 
 
@@ -164,12 +161,12 @@ GRIP = make_verdict(id="grip", **ADHESION, margin=-0.044, status="fail")
 @pytest.mark.parametrize(
     ("verdict", "told"),
     [
-        (GRIP, "grip 0.124 g, upper limit 0.08 g"),
-        (replace(GRIP, measure="sliding_share", **SHARE), "grip 0 % of the time, lower limit 35 %"),
-        (replace(GRIP, unit="m", lower=440.0, upper=490.0, value=400.0), "grip 400 m, limits 440 .. 490 m"),
+        (GRIP, "grip 0.124 g (limit 0.08 g)"),
+        (replace(GRIP, measure="sliding_share", **SHARE), "grip 0 % of the time (35 % needed)"),
+        (replace(GRIP, unit="m", lower=440.0, upper=490.0, value=400.0), "grip 400 m (440 to 490 m)"),
         (replace(GRIP, value=None), "grip"),
-        (replace(GRIP, layer="rig"), "grip 0.124 g, upper limit 0.08 g"),
-        (replace(GRIP, layer="record"), "grip 0.124 g, upper limit 0.08 g"),
+        (replace(GRIP, layer="rig"), "grip 0.124 g (limit 0.08 g)"),
+        (replace(GRIP, layer="record"), "grip 0.124 g (limit 0.08 g)"),
     ],
 )
 def test_an_invalid_stop_says_by_which_number_it_is_no_test_and_not_whose_fault_it_is(verdict, told):
@@ -196,9 +193,9 @@ def test_every_criterion_is_said_failing_ones_first_with_its_readings_and_what_t
     )
     assert list(criterion_sentences(result)) == [
         "x (requirement) fail: 3 s",
-        "braking-distance (validity) pass: 465.25 m, limits 440 .. 490 m, margin 24.75 m",
+        "braking-distance (validity) pass: 465.2 m (440 to 490 m)",
         f"braking-distance: {steady}",
-        "minimum-slide (validity) pass: 465.25 m, limits 440 .. 490 m, margin 24.75 m",
+        "minimum-slide (validity) pass: 465.2 m (440 to 490 m)",
         "minimum-slide read as at-once (decides) pass: 42 % keeps > 35 %",
         "minimum-slide read as depth fail: 0 of 4 wheelsets keep",
         f"minimum-slide read as depth: {TURNING}",

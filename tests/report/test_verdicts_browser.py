@@ -68,7 +68,7 @@ def test_a_filter_leaves_the_rows_it_names_in_their_order_and_loses_and_doubles_
     _search(table, "case-29")
     assert run(table, _SHOWN) == _ids(*(n for n in ORDER if n >= 290))
     assert table.find_element("css selector", ".count").text == "10 of 300 shown"
-    _search(table, "wheelsets CASE-29")
+    _search(table, "expected CASE-29")
     assert run(table, _SHOWN) == _ids(294)
     _reset(table)
     # A verdict that is switched off and on is back in its place.

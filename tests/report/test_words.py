@@ -26,7 +26,6 @@ from uictest.report.words import (
     counted,
     counted_in,
     csv_cell,
-    line_word,
     listed,
     measure_heading,
     measure_words,
@@ -81,10 +80,10 @@ HARMLESS = ("90 %", "slip-120", "-5", "+0.5", "-1.5e-3", "", "-5 permille", "-0.
         (counted_in(0, 0), "0 cases"),
         (listed(["a", "b\n", "c"]), r"a, b\n, c"),
         (listed(list("abcde")), "a, b, c and 2 more"),
-        (number(465.2549), "465.25"),
+        (number(465.2549), "465.3"),
         (number(1e-12), "1e-12"),
         (number(None) + number(float("nan")), "--"),
-        (number(465.2549, 4), "465.3"),
+        (number(465.2549, 6), "465.255"),
         (quantity(465.0, "m"), "465 m"),
         (quantity(0.0, "1"), "0"),
         (quantity(None, "m"), "-"),
@@ -121,11 +120,9 @@ def test_the_word_of_a_case_says_outcome_and_expectation(expect, words):
     assert {word for word in words if tone(word) == "odd"} == {"error"}
 
 
-def test_every_word_is_counted_and_is_one_field_of_a_line():
+def test_every_word_is_counted():
     counts = dict.fromkeys(CASE_WORDS, 1)
     assert len(counts_text(counts, 0).split(", ")) == len(CASE_WORDS)
-    assert not any(" " in line_word(word) for word in CASE_WORDS)
-    assert line_word("expected fail") == "expected-fail"
 
 
 @pytest.mark.parametrize(
@@ -135,8 +132,8 @@ def test_every_word_is_counted_and_is_one_field_of_a_line():
         (-2.0, -1.0, "m/s2", "+50"),
         (-2.0, -3.0, "m/s2", "-50"),
         (4.0, 0.0, "bar", "-100"),
-        (0.0, 1.0, "bar", "A is 0"),
-        (0.0, math.nan, "bar", "A is 0"),
+        (0.0, 1.0, "bar", "from 0"),
+        (0.0, math.nan, "bar", "from 0"),
         (1.0, math.nan, "bar", "-"),
         (20.0, 30.0, "degC", "-"),
         ("pass", "fail", "", "-"),

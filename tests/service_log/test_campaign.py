@@ -262,6 +262,15 @@ def test_terminal_page_and_tables_say_when_and_where(log, tmp_path, monkeypatch,
     run, stops = judged_by(folder, tmp_path, monkeypatch, "uictest-stop")
     travelled = (recorded["speed"] * logs.STEP).cumsum()
     shown, page = capsys.readouterr().out, (run / "index.html").read_text("utf-8")
+    lines = shown.splitlines()
+    last = next(k for k, line in enumerate(lines) if line.startswith("FAILED: "))
+    [failing] = [line for line in lines[:last] if line.startswith(f"  {LOCKS}: wet rail, ")]
+    assert (
+        failing
+        == f"  {LOCKS}: wet rail, {stops[0]['clock']}, at {float(stops[0]['place_m']):.0f} m on the line"
+    )
+    assert stops[0]["misses"].startswith("locked-wheels ")
+    assert [row["rail"] for row in stops] == ["wet"] * len(stops)
     campaign = json.loads((run / "results.json").read_text("utf-8"))["campaign"]
     (table,) = [each for each in campaign["tables"] if each["name"] == "stops"]
     for row, cells in zip(stops, table["rows"], strict=True):
@@ -270,9 +279,9 @@ def test_terminal_page_and_tables_say_when_and_where(log, tmp_path, monkeypatch,
         assert pd.Timestamp(row["clock"]) == date.round("ms")
         assert float(row["distance_m"]) == pytest.approx(travelled[sample], abs=0.5)
         assert float(row["place_m"]) == pytest.approx(PLACE + travelled[sample], abs=0.5)
-        assert cells[1] == row["clock"]
-        line = next(each for each in shown.splitlines() if each.startswith(f"  {row['stops']} "))
-        assert re.search(rf"{row['clock']} +{float(row['distance_m']):.0f} ", line)
+        assert row["clock"] in cells
+        line = next(each for each in lines if each.startswith(f"  {row['stops']} "))
+        assert re.search(rf"{row['clock']} +{float(row['place_m']):.0f}\b", line)
         assert row["clock"] in page
 
 

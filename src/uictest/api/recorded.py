@@ -244,5 +244,5 @@ def validate(
     folder = None
     if output is not None:
         words = command_words(["validate", file], {"--set": texts, "--trust": folders, "-o": output})
-        folder = runs.publish_validation(run.validation, words, Path(output))
+        folder = runs.publish_validation(run, words, Path(output))
     return Validation(run.validation, complete=run.complete, folder=folder)

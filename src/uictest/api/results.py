@@ -83,8 +83,10 @@ def run_summary_html(content: report.RunContent) -> str:
     return f"<p>{escape(content.tally)}</p>{tables}{note}"
 
 
-_SHOWN = 10
-"""Cases that the text form lists."""
+_SHOWN: Final = 10
+"""Cases that the text form lists; chosen."""
+_WIDTH: Final = 100
+"""Letters of a line of the text form; chosen."""
 _INDEX = {
     "summary": ("id",),
     "wheelsets": ("id", "wheelset"),
@@ -229,10 +231,8 @@ class Results(Sequence[evaluation.CaseResult]):
             return None
 
     def __repr__(self) -> str:
-        """Return the counts, and the line of each of the first cases."""
-        lines = [report.case_line(result) for result in self[:_SHOWN]]
-        more = [f"and {len(self) - _SHOWN} more"] if len(self) > _SHOWN else []
-        return "\n".join([self.tally, *map(report.series_line, self.series), *lines, *more])
+        """Return the summary, with the table of the first cases."""
+        return "\n".join([self.tally, *report.run_lines(self._content, _WIDTH, most=_SHOWN)])
 
     def _repr_html_(self) -> str:
         return run_summary_html(self._content)

@@ -9,7 +9,7 @@ import shutil
 import sys
 from collections.abc import Callable, Iterable
 from enum import IntEnum
-from typing import TextIO
+from typing import Final, TextIO
 
 from uictest import runs
 from uictest.plans.scenario import Diagnostic
@@ -77,6 +77,16 @@ def append_summary(append: Callable[[], None]) -> None:
 def terminal_width(stream: TextIO) -> int | None:
     """Return the characters that a line of the terminal holds, None for a stream that is not a terminal."""
     return shutil.get_terminal_size().columns if stream.isatty() else None
+
+
+_WIDTH: Final = 100
+"""Characters of a line where there is no terminal: fits the logs of GitLab, GitHub and Jenkins; chosen."""
+
+
+def output_width(stream: TextIO) -> int:
+    """Return the characters that a line may have: of the terminal, elsewhere 100 or COLUMNS if more."""
+    columns = shutil.get_terminal_size((_WIDTH, 24)).columns
+    return columns if stream.isatty() else max(columns, _WIDTH)
 
 
 def lost_data() -> str:

@@ -7,15 +7,13 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import replace
 from pathlib import Path
 from time import monotonic, perf_counter
 
 from uictest import report, runs
 from uictest.cli.options import Format
-from uictest.cli.output import append_summary, coloured, data, interactive, message, terminal_width
+from uictest.cli.output import append_summary, coloured, data, interactive, message, output_width
 from uictest.core import files
-from uictest.judging import evaluation, series
 from uictest.running import campaign
 
 HEARTBEAT = 30.0
@@ -104,16 +102,14 @@ class TerminalObserver(runs.Observer):
 
 
 class Display(TerminalObserver):
-    """Shows progress and tracebacks on stderr. What it shows on stdout a subclass says: this one, nothing."""
+    """Shows progress and tracebacks on stderr. A subclass says what it shows on stdout."""
 
     def __init__(self, *, quiet: bool, verbose: bool) -> None:
         super().__init__(quiet=quiet)
         self.verbose = verbose
-        self._in_colour = coloured(sys.stdout)
 
     def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
-        """Show a case; with -v, the traceback of its crash, too."""
-        self.show(run.result, differences)
+        """Show, with -v, the traceback of a crash."""
         if self.verbose and run.traceback:
             message(run.traceback.rstrip())
 
@@ -122,68 +118,48 @@ class Display(TerminalObserver):
         if self.verbose:
             self.case(run, differences)
 
-    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
-        """Show one result; `differences` are its quantities out of the tolerance of the baseline."""
+    def end(self, content: report.RunContent, document: str) -> None:
+        """Show the results; `document` is the text of results.json."""
+
+    def close(self, content: report.RunContent, ending: str, place: Path) -> None:
+        """Show how the run ended and where its reports are: on stderr, as stdout is for programs."""
+        [line] = report.last_lines(content, ending, sys.maxsize)
+        message(f"uictest: {line}; reports in {place}")
+
+
+class Text(Display):
+    """The table of the cases when all are finished, as columns are as wide as their widest cell."""
 
     def end(self, content: report.RunContent, document: str) -> None:
-        """Show the rest; `document` is the text of results.json."""
+        """Show the table, what is close, and what failed."""
+        lines = report.run_lines(
+            content,
+            output_width(sys.stdout),
+            coloured=coloured(sys.stdout),
+            quiet=self.quiet,
+            verbose=self.verbose,
+        )
+        for line in lines:
+            data(report.no_command(line))
+
+    def close(self, content: report.RunContent, ending: str, place: Path) -> None:
+        """Show the last line, and where the reports are."""
+        width, in_colour = output_width(sys.stdout), coloured(sys.stdout)
+        data("")
+        for line in report.last_lines(content, ending, width, coloured=in_colour):
+            data(report.no_command(line))
+        page = place / "index.html"
+        shown = f"page: {page}" if page.is_file() else f"reports: {place}"
+        data(report.no_command(report.printable(shown)))
 
 
-class Lines(Display):
-    """One line per case as it finishes; with -v also per criterion, with -q only what does not pass."""
-
-    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
-        """Show one result."""
-        if self.quiet and result.met and not result.allowed and not differences:
-            return
-        self._show_result(report.case_word(result, differences), report.case_line(result, differences))
-        if self.verbose:
-            for line in report.criterion_lines(result):
-                data(line)
-        for line in (*report.domain_lines(result), *report.firmness_lines(result)):
-            data(line)
-
-    def series(self, result: series.SeriesResult) -> None:
-        """Show a series, and unless quiet its criteria and the stops that count."""
-        if self.quiet and result.met:
-            return
-        self._show_result(report.result_word(result), report.series_line(result))
-        for line in (*report.series_lines(result), *report.firmness_lines(result)):
-            data(line)
-
-    def end(self, content: report.RunContent, document: str) -> None:
-        """Show the missing cases of the baseline; with -v also the definitions of criteria, and parts."""
-        for line in report.missing_lines(content.baseline) if content.baseline else ():
-            self._show_result(report.DIFFERS, line)
-        if self.verbose:
-            for line in _common_lines(_shown_results(content, quiet=self.quiet)):
-                data(line)
-
-    def _show_result(self, word: str, line: str) -> None:
-        first = report.line_word(word)
-        tone = report.tone(word) if self._in_colour else None
-        data(f"{report.coloured_text(first, tone)}{line.removeprefix(first)}")
-
-
-class Annotations(Lines):
-    """Lines, and a GitHub annotation below each case that does not pass."""
-
-    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
-        """Show one result."""
-        super().show(result, differences)
-        for line in report.case_annotations(result, differences):
-            data(line)
-
-    def series(self, result: series.SeriesResult) -> None:
-        """Show a series."""
-        super().series(result)
-        for line in report.series_annotations(result):
-            data(line)
+class Annotations(Text):
+    """Text, and a GitHub annotation for each case and series that is not as expected."""
 
     def end(self, content: report.RunContent, document: str) -> None:
-        """Show the rest, and an annotation for each missing case of the baseline."""
+        """Show the text, then the annotations."""
         super().end(content, document)
-        for line in report.missing_annotations(content.baseline) if content.baseline else ():
+        for line in report.run_annotations(content):
             data(line)
 
 
@@ -195,60 +171,10 @@ class ResultsDocument(Display):
         data(document.rstrip("\n"))
 
 
-class VerdictTable(Display):
-    """A table at the end, as columns are as wide as their widest cell, and the reasons of what is not met."""
-
-    def end(self, content: report.RunContent, document: str) -> None:
-        """Show the table and the explanations."""
-        for line in self._content_lines(content):
-            data(line)
-
-    def _content_lines(self, content: report.RunContent) -> Iterator[str]:
-        width = terminal_width(sys.stdout)
-        results = _shown_results(content, quiet=self.quiet)
-        if results:
-            table = replace(report.cases_table(content), rows=results)
-            yield from report.table_lines(table, width, coloured=self._in_colour)
-        for result in results:
-            if self.verbose or not content.passes(result) or result.outcome in report.EXPLAINED:
-                yield from report.explanation_lines(
-                    content, result, every_criterion=self.verbose, coloured=self._in_colour
-                )
-            yield from report.domain_lines(result)
-            # The explanation of a case that is not met for lack of firmness has said how firm it is.
-            if self.verbose or not result.lacks_firmness:
-                yield from report.firmness_lines(result)
-        judged = [result for result in content.series if not (self.quiet and result.met)]
-        if judged:
-            yield from report.series_lines_of_terminal(judged, width)
-        for of_series in judged:
-            yield from report.firmness_lines(of_series)
-        close = report.close_lines(() if self.quiet else results, judged)
-        if close.sentences:
-            yield f"{close.title}:"
-            yield from (f"  {line}" for line in close.sentences)
-        yield from report.missing_lines(content.baseline) if content.baseline else ()
-        if self.verbose:
-            yield from _common_lines(results)
-
-
-def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield the definitions of criteria and the parts, once for all cases."""
-    yield from report.definition_lines(results)
-    yield from report.part_lines(results)
-
-
 def chosen_display(shown: Format, *, quiet: bool, verbose: bool) -> Display:
-    """Return the display for a format; `text` is a table on a terminal and lines elsewhere."""
-    kind: type[Display] = VerdictTable if interactive(sys.stdout) else Lines
-    if shown is not Format.TEXT:
-        kind = ResultsDocument if shown is Format.JSON else Annotations
-    return kind(quiet=quiet, verbose=verbose)
-
-
-def _shown_results(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
-    """Return the cases; if `quiet`, those that are not as expected or miss what is only allowed."""
-    return [result for result in content.results if not quiet or result.allowed or not content.passes(result)]
+    """Return the display for a format, the same on a terminal and elsewhere."""
+    kinds = {Format.TEXT: Text, Format.GITHUB: Annotations, Format.JSON: ResultsDocument}
+    return kinds[shown](quiet=quiet, verbose=verbose)
 
 
 def publish_and_show(
@@ -274,10 +200,10 @@ def publish_and_show(
     if display.quiet:
         return published
     for notice in report.notices(content.all_results):
-        message(f"uictest: {notice}")
-    ended = "interrupted, " if published.interrupted else ""
+        for line in report.wrapped_sentence(f"uictest: {notice}", output_width(sys.stderr)):
+            message(line)
     remaining = len(batch.all_cases) - len(content.all_results)
-    not_run = f", {remaining} not run" if remaining else ""
-    seconds = perf_counter() - started
-    message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {published.place}")
+    not_run = f"; {remaining} not run" if remaining else ""
+    interrupted = "; interrupted" if published.interrupted else ""
+    display.close(content, f"{interrupted}{not_run}; took {perf_counter() - started:.1f} s", published.place)
     return published

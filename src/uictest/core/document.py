@@ -189,6 +189,26 @@ class Lines(NamedTuple):
     title: str = ""
 
 
+class Block(NamedTuple):
+    """Something to act on: what it is, the facts about it, the command that shows it again."""
+
+    heading: str
+    lines: Sequence[str]
+    command: str = ""
+    tone: Tone | None = None
+
+
+class Blocks(NamedTuple):
+    """Blocks below each other."""
+
+    blocks: Sequence[Block]
+    title: str = ""
+
+
+Section = Table | Lines | Blocks
+"""A part of a document."""
+
+
 class Document(NamedTuple):
     """What a result says to people: its sections in their order.
 
@@ -197,7 +217,7 @@ class Document(NamedTuple):
     """
 
     title: str
-    sections: Sequence[Table | Lines]
+    sections: Sequence[Section]
     about: Sequence[str] = ()
     all_in: str = "results.json"
 

@@ -104,7 +104,9 @@ def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: 
         built_in = evaluation.program_in(result.parts) is None
         text = controller_text(name, version, result.controller_contract, built_in=built_in)
         acts[text] = acts.get(text, False) or not is_bypassed(result.parts)
-    return ", ".join(text if active else f"{text}, bypassed" for text, active in acts.items())
+    # One that told no version in some cases, as they failed, is known by the others.
+    known = {text: acts[text] for text in acts if not any(other.startswith(f"{text} (") for other in acts)}
+    return ", ".join(text if active else f"{text}, bypassed" for text, active in known.items())
 
 
 def controller_text(name: str, version: str, contract: int = 0, *, built_in: bool) -> str:

@@ -7,73 +7,37 @@ from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from uictest.core.document import Lines
-from uictest.core.measures import STOP_COLUMNS
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
 from uictest.plans.scenario import Expectation, supposed_definition
-from uictest.report.case_conditions import (
-    car_facts,
-    domain_sentences,
-    part_sentences,
-    slide_speed,
-    train_cells,
-)
-from uictest.report.difference import (
-    BaselineComparison,
-    Difference,
-    case_explanation,
-    case_word,
-    difference_sentences,
-)
+from uictest.report.case_conditions import car_facts, part_sentences
+from uictest.report.difference import difference_sentences
 from uictest.report.formats.text import coloured_text
-from uictest.report.robustness import firmness_sentences, range_cells, repeat_sentences, share_cells
-from uictest.report.series_report import (
-    bypassed_is_better,
-    interval,
-    limit_inside,
-    of_dry_stop,
-    series_verdict_sentence,
-    stops_sentences,
-    unsettled_of_series,
-)
+from uictest.report.robustness import firmness_sentences, repeat_sentences
+from uictest.report.series_report import bypassed_is_better, series_value_text, why_uncertain
 from uictest.report.verdict_sentences import (
     criterion_sentences,
     definition_sentence,
     reading_sources,
     real_time_sentences,
-    statement_sentence,
-    value_and_limits,
+    value_with_limit,
     without_checks_that_hold,
 )
-from uictest.report.words import (
-    DIFFERS,
-    EXPLAINED,
-    counted,
-    line_word,
-    listed,
-    number,
-    percent,
-    printable,
-    quantity,
-    result_word,
-    tone,
-)
+from uictest.report.words import listed, printable, quantity, tone
 
 if TYPE_CHECKING:
-    from uictest.judging.series import SeriesResult, SeriesVerdict
+    from uictest.judging.series import SeriesResult
     from uictest.report.content import RunContent
 
-TITLE: Final = "Close or uncertain"
 NARROW: Final = 10.0
 """Per cent of the limit: a criterion met with less to spare is marked as narrow; chosen."""
 MOST_CLOSE: Final = 8
 """Close verdicts that a reader is shown first; the tables of cases and series have all of them."""
 _BECOMES: Final[Mapping[evaluation.Status, str]] = {
-    "pass": "pass",
-    "fail": "fail",
-    "inconclusive": "be inconclusive",
-    "not_applicable": "not apply",
+    "pass": "passes",
+    "fail": "fails",
+    "inconclusive": "is inconclusive",
+    "not_applicable": "does not apply",
 }
 
 
@@ -113,21 +77,14 @@ def close_calls(
             elif (share := _narrow_margin(verdict)) is not None:
                 call = CloseCall(result.id, verdict.id, "narrow", _narrow_text(verdict, share))
                 narrow.append((share, call))
-    not_firm = [*map(_not_firm, results), *(_not_firm(result, of_series=True) for result in series)]
+    not_firm = [_not_firm(result) for result in results if result.met]
+    not_firm += [_not_firm(result, of_series=True) for result in series if result.met]
     return [
         *(call for call in not_firm if call is not None),
         *(call for result in series for call in _of_series(result)),
         *turning,
         *(call for _, call in sorted(narrow, key=lambda pair: pair[0])),
     ]
-
-
-def close_lines(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> Lines:
-    """Return the first of what is close or not certain as lines, and how many more there are."""
-    calls = close_calls(results, series)
-    rest = len(calls) - MOST_CLOSE
-    more = [f"{rest} more, in the tables of cases and series"] if rest > 0 else []
-    return Lines([*map(str, calls[:MOST_CLOSE]), *more], title=TITLE)
 
 
 def _narrow_margin(verdict: evaluation.Verdict) -> float | None:
@@ -137,7 +94,7 @@ def _narrow_margin(verdict: evaluation.Verdict) -> float | None:
 
 
 def _narrow_text(verdict: evaluation.Verdict, share: float) -> str:
-    return f"{value_and_limits(verdict, word='')} ({100 * share:+.3g} %)"
+    return f"{value_with_limit(verdict)}, {100 * share:.2g} % to spare"
 
 
 def _not_firm(result: evaluation.CaseResult | SeriesResult, *, of_series: bool = False) -> CloseCall | None:
@@ -153,27 +110,15 @@ def _of_series(result: SeriesResult) -> Iterator[CloseCall]:
     for judged in result.criteria:
         verdict = judged.verdict
         if judged.confident is False and (verdict.status == "pass" or result.met):
-            text = _uncertain_line(judged, result.confidence)
+            text = f"{series_value_text(judged)}: not certain, {why_uncertain(judged, result.confidence)}"
             yield CloseCall(result.id, verdict.id, "turns", text, of_series=True)
         elif (share := _narrow_margin(verdict)) is not None:
             text = _narrow_text(verdict, share)
             yield CloseCall(result.id, verdict.id, "narrow", text, of_series=True)
 
 
-def _uncertain_line(judged: SeriesVerdict, confidence: float) -> str:
-    verdict, estimate = judged.verdict, judged.estimate
-    from_speed = f" from {judged.place}" if judged.speed_kmh is not None else ""
-    value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(judged)}{from_speed}: not certain"
-    if estimate is None:
-        return value
-    unit = "" if verdict.unit == "1" else f" {verdict.unit}"
-    stops = counted(estimate.stops, "stop")
-    within = f"the {percent(confidence)} interval {interval(estimate)}{unit} ({stops})"
-    return f"{value}, {limit_inside(judged, within)}"
-
-
 def turns_text(verdict: evaluation.Verdict) -> str:
-    """Return what turns a verdict: `would fail if sliding counted below 85 % instead of 90 % ...`.
+    """Return what turns a verdict: `fails if sliding counted below 85 % instead of 90 % ...`.
 
     Empty where nothing does.
     """
@@ -190,7 +135,7 @@ def _turned_by(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity)
     """Yield the nearest values of a definition that change the verdict, with the status there."""
     intervals, unit = sensitivity.intervals, sensitivity.unit
     if any(interval.reading for interval in intervals):
-        yield f"turns with its reading ({', '.join(map(str, intervals))})"
+        yield f"depends on the reading ({', '.join(map(str, intervals))})"
         return
     stated = verdict.defined(sensitivity.definition)
     if stated is None:
@@ -207,32 +152,19 @@ def _turned_by(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity)
     clause = supposed_definition(sensitivity.definition)
     for value, status in nearest:
         supposed = clause.format(f"{quantity(value, unit)} instead of {quantity(now, unit)}")
-        yield f"would {_BECOMES[status]} if {supposed}"
-
-
-MOST_DIFFERENCES: Final = 3
-"""Quantities out of the tolerance of a baseline that a case shows on a terminal; results.json has all."""
+        yield f"{_BECOMES[status]} if {supposed}"
 
 
 def explanation_lines(
-    content: RunContent,
-    result: evaluation.CaseResult,
-    *,
-    every_criterion: bool = False,
-    coloured: bool = False,
+    content: RunContent, result: evaluation.CaseResult, *, coloured: bool = False
 ) -> Iterator[str]:
-    """Yield the word and the id of a case, and below them the reasons for its outcome or all its verdicts."""
+    """Yield the word and the id of a case, and below them all its verdicts and differences."""
     word = content.word(result)
     yield f"{coloured_text(word, tone(word) if coloured else None)} {printable(result.id)}"
-    lines = content.explanation(result, MOST_DIFFERENCES)
-    if every_criterion:
-        lines = [
-            *repeat_sentences(result),
-            *criterion_sentences(result),
-            *real_time_sentences(result),
-            *difference_sentences(content.differences(result.id)),
-        ]
-    yield from (f"  {line}" for line in lines)
+    yield from repeat_sentences(result)
+    yield from criterion_sentences(result)
+    yield from real_time_sentences(result)
+    yield from difference_sentences(content.differences(result.id))
 
 
 def expectation_lines(results: Iterable[evaluation.CaseResult]) -> Iterator[str]:
@@ -298,93 +230,3 @@ def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     for (role, sentence), names in cases.items():
         where = "" if len(names) == len(results) else f" (in {listed(names)})"
         yield f"part {role}{where}: {sentence}"
-
-
-# Lines for grep: a word, the id of a case or series, and `key=value` or a sentence.
-
-_MEASURES: Final = tuple(name for name, column in STOP_COLUMNS.items() if column.overview)
-_SERIES_MEASURES: Final = ("k_wet", "stopping_distance_extension", "passing_share")
-
-
-def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
-    """Return the line of one case, ending with the reason if it is not met or differs from the baseline."""
-    words = [line_word(case_word(result, differences)), printable(result.id)]
-    words += [f"outcome={result.outcome}", f"expect={str(result.expect).replace(' ', '')}"]
-    if result.criteria:
-        words += [f"test_validity={result.test_validity}", f"requirements={result.requirement_status}"]
-    if result.rail is not None:
-        words.append(f"rail_validity={result.rail.test_validity}")
-    words += [f"{name}={value:.4g}" for name, value in share_cells(result).items()]
-    words += [f"{name}={value:.5g}" for name, value in range_cells(result, _MEASURES[:1]).items()]
-    words += _measure_lines(result)
-    if differences or not result.met or result.outcome in EXPLAINED:
-        outcomes, *more = case_explanation(result, differences, MOST_DIFFERENCES)
-        reasons = [line for line in more if line != statement_sentence(result)]
-        words.append(f"reason={'; '.join(reasons or [outcomes])}")
-    return " ".join(words)
-
-
-def _measure_lines(result: evaluation.CaseResult) -> Iterator[str]:
-    if result.measures is not None:
-        yield from (f"{name}={number(result.measures[name])}" for name in _MEASURES)
-    if result.wheelsets:
-        yield f"slide_above={slide_speed([result]).replace(' ', '')}"
-        for name in ("maximum_slide", "valve_actuations"):
-            yield f"{name}={'/'.join(number(wheelset[name]) for wheelset in result.wheelsets)}"
-    for name, force in train_cells(result).items():
-        if isinstance(force, float):
-            yield f"{name}={number(force)}"
-    if (times := result.response_times) is not None:
-        yield f"missed_deadlines={times.missed_deadlines}"
-        yield f"longest_answer_s={number(times.longest_answer_s)}"
-        yield f"start_jitter_s={number(times.start_jitter_s)}"
-    if result.controller_log:
-        yield f"controller_log={result.controller_log}"
-
-
-def criterion_lines(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield one line per criterion of a case."""
-    return (f"criterion {printable(result.id)} {sentence}" for sentence in criterion_sentences(result))
-
-
-def domain_lines(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield the conditions of a case that lie outside of what was validated."""
-    for sentence in domain_sentences(result):
-        yield f"outside {printable(result.id)} {sentence.removeprefix('outside ')}"
-
-
-def firmness_lines(result: evaluation.CaseResult | SeriesResult) -> Iterator[str]:
-    """Yield the lines on how firm a case or series is."""
-    return (f"firmness {printable(result.id)} {sentence}" for sentence in firmness_sentences(result))
-
-
-def missing_lines(baseline: BaselineComparison) -> Iterator[str]:
-    """Yield one line per case of the baseline that is missing, and per series that differs from it."""
-    for case_id in baseline.beside_cases:
-        reason = "; ".join(difference_sentences(baseline.differences[case_id], MOST_DIFFERENCES))
-        yield f"{DIFFERS} {printable(case_id)} reason={reason}"
-
-
-def series_line(result: SeriesResult) -> str:
-    """Return the line of a series: word, id, outcome, and its measures."""
-    words = [line_word(result_word(result)), printable(result.id)]
-    words += [f"outcome={result.outcome}", f"expect={result.expect}"]
-    for name in _SERIES_MEASURES:
-        of_rails = {
-            f"{name}[{speed.place.replace(' ', '')}]": speed.measures for speed in result.speeds if speed.rail
-        }
-        for key, measures in (of_rails or {name: result.measures}).items():
-            estimate = measures[name].estimate
-            words.append(f"{key}={number(None if estimate is None else estimate.value)}")
-    if not result.met:
-        reasons = [result.reason] if result.reason else unsettled_of_series(result)
-        words.append(f"reason={printable('; '.join(reasons))}")
-    return " ".join(words)
-
-
-def series_lines(result: SeriesResult) -> Iterator[str]:
-    """Yield the lines below that of a series: its criteria, the stops that count and that do not."""
-    for judged in result.criteria:
-        yield f"criterion {printable(result.id)} {series_verdict_sentence(judged, result.confidence)}"
-    for sentence in stops_sentences(result):
-        yield f"stops {printable(result.id)} {sentence}"

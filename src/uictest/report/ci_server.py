@@ -17,16 +17,12 @@ from uictest.report.case_conditions import (
     implausible_sentences,
 )
 from uictest.report.content import RunContent
-from uictest.report.difference import (
-    BaselineComparison,
-    Difference,
-    case_explanation,
-    case_word,
-    difference_sentences,
-)
+from uictest.report.difference import BaselineComparison, difference_sentences
 from uictest.report.requirements import requirements_of
+from uictest.report.rerun import rerun_command
 from uictest.report.robustness import firmness_property, firmness_sentences, repeat_sentences, stops_text
 from uictest.report.series_report import series_explanation, series_verdict_sentence, stops_sentences
+from uictest.report.summary import case_causes
 from uictest.report.verdict_sentences import allowed_sentences, real_time_sentences, statement_sentence
 from uictest.report.words import DIFFERS, result_word, workflow_message, workflow_property
 
@@ -131,7 +127,7 @@ def _testcase(content: RunContent, result: evaluation.CaseResult, with_propertie
     else:
         controllers = controllers_text([result], content.uictest_version)
         tested = [f"controller: {controllers}"] if controllers else []
-        lines = [*content.explanation(result), *tested, *lines]
+        lines = [*content.explanation(result), *wsp_lines(content, result), *tested, *lines]
     named = test_properties(result.test_case, requirements_of(result)) if with_properties else {}
     return Testcase(
         class_name(result.scenario),
@@ -142,6 +138,13 @@ def _testcase(content: RunContent, result: evaluation.CaseResult, with_propertie
         result.duration,
         named | firmness_property(result),
     )
+
+
+def wsp_lines(content: RunContent, result: evaluation.CaseResult) -> list[str]:
+    """Return what the recording shows of why a case failed, and the command that runs it again."""
+    command = rerun_command(content.manifest, result.scenario, result.id)
+    causes = [f"cause: {cause}" for cause in case_causes(result, content.traces.get(result.id))]
+    return [*causes, *([f"run again: {command}"] if command else [])]
 
 
 def series_suite(result: SeriesResult, uictest_version: str = "", *, with_properties: bool = False) -> Suite:
@@ -171,7 +174,8 @@ def series_suite(result: SeriesResult, uictest_version: str = "", *, with_proper
         testcases.append(make_testcase(judged.verdict.id, status, lines, judged.verdict.requirements))
     if not result.met and all(testcase.status != "failure" for testcase in testcases):
         of_outcome: TestcaseStatus = "error" if result.outcome == "error" else "failure"
-        testcases.append(make_testcase("outcome", of_outcome, series_explanation(result)))
+        lines = [*series_explanation(result), *stops_sentences(result)]
+        testcases.append(make_testcase("outcome", of_outcome, lines))
     cases = [each.case for each in result.cases]
     name = f"uictest series: {result.id}"
     return _suite(name, testcases, cases, requirements_of(result), uictest_version)
@@ -193,17 +197,27 @@ def annotation(
     return f"::{level} {shown}::{workflow_message(message)}"
 
 
-def case_annotations(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
+def run_annotations(content: RunContent) -> Iterator[str]:
+    """Yield the annotations of a run: of cases, of what differs from the baseline alone, of series."""
+    for result in content.all_results:
+        yield from case_annotations(content, result)
+    if content.baseline is not None:
+        yield from missing_annotations(content.baseline)
+    for series in content.series:
+        yield from series_annotations(series)
+
+
+def case_annotations(content: RunContent, result: evaluation.CaseResult) -> Iterator[str]:
     """Yield an `::error` command for a case that misses its expectation or differs from the baseline.
 
     A case that uses an allowance, or that is as expected while some of its stops are not, has a `::notice`.
     """
-    title = f"{case_word(result, differences)} {result.id}"
-    if differences or not result.met:
-        lines = [*case_explanation(result, differences), *changes_line(result)]
+    title = f"{content.word(result)} {result.id}"
+    if not content.passes(result):
+        lines = [*content.explanation(result), *wsp_lines(content, result), *changes_line(result)]
         yield annotation(result.scenario, title, "\n".join(lines))
     elif result.allowed:
-        yield annotation(result.scenario, title, "\n".join(case_explanation(result, ())), level="notice")
+        yield annotation(result.scenario, title, "\n".join(content.explanation(result)), level="notice")
     elif result.repeats is not None and result.repeats.turns:
         title = f"{stops_text(result)} {result.id}"
         yield annotation(result.scenario, title, "\n".join(repeat_sentences(result)), level="notice")

@@ -296,6 +296,18 @@ class CaseDescription:
     recorded: Mapping[str, str] = field(default_factory=dict)
 
 
+def _location_text(row: Mapping[str, Cell]) -> str:
+    """Return the rail, the time and the place of a stop, as far as an earlier version wrote them."""
+    rail, place, in_file = row.get("rail"), row.get("place_m"), row.get("distance_m")
+    texts = [f"{rail} rail"] if rail else []
+    texts += [str(row.get("clock", ""))]
+    if isinstance(place, int | float):
+        texts.append(f"at {place:.0f} m on the line")
+    elif isinstance(in_file, int | float):
+        texts.append(f"{in_file:.0f} m into the file")
+    return ", ".join(texts)
+
+
 @dataclass(frozen=True, slots=True)
 class RunContent:
     """What a report shows.
@@ -330,6 +342,12 @@ class RunContent:
         """Return the description of a case; an empty one where there is none."""
         return self.subjects.get(case_id, CaseDescription())
 
+    def locations(self, case_ids: Collection[str]) -> dict[str, str]:
+        """Return on which rail, when and where stops of a log were, the worst first; of others nothing."""
+        tables = self.campaign.tables if self.campaign else ()
+        rows = [row for table in tables if table.name == STOPS for row in table.table.rows]
+        return {row[STOPS]: _location_text(row) for row in rows if row[STOPS] in case_ids}
+
     def differences(self, case_id: str) -> Sequence[Difference]:
         """Return the quantities of a case that are out of the tolerance of the baseline."""
         return self.baseline.differences.get(case_id, ()) if self.baseline else ()
@@ -342,12 +360,14 @@ class RunContent:
         """Return the word of a case, from its expectation and the baseline."""
         return case_word(result, self.differences(result.id))
 
-    def explanation(self, result: evaluation.CaseResult, most: int | None = None) -> list[str]:
-        """Return the reasons for the outcome of a case, and its differences from the baseline, or `most`.
+    def explanation(self, result: evaluation.CaseResult, *, briefly: bool = False) -> list[str]:
+        """Return the reasons for the outcome of a case, and its differences from the baseline.
 
-        Of a stop that is drawn the reasons say when the values were taken.
+        Of a stop that is drawn the reasons say when the values were taken. `briefly` leaves out what a table
+        of the criteria says.
         """
-        return case_explanation(result, self.differences(result.id), most, self._instants(result))
+        differences = self.differences(result.id)
+        return case_explanation(result, differences, self._instants(result), briefly=briefly)
 
     def _instants(self, result: evaluation.CaseResult) -> dict[str, str]:
         """Return when, and at which wheelset, the value of each criterion was taken; {} where not drawn."""
@@ -355,15 +375,10 @@ class RunContent:
         trace = self.traces.get(result.id)
         if trace is None or result.met or result.repeats is not None:
             return {}
-        from uictest.report.page.marks import taken_at
+        from uictest.report.traces.instants import taken_at
 
         taken = {verdict.id: taken_at(verdict, trace) for verdict in result.criteria}
         return {name: instant.text for name, instant in taken.items() if instant is not None}
-
-    @property
-    def allows_something(self) -> bool:
-        """Whether a case misses what it may, by name, under another controller than its own."""
-        return any(result.allowed for result in self.results)
 
     @property
     def tally(self) -> str:

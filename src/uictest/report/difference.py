@@ -4,20 +4,31 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Annotated, Final, NamedTuple
-
-from pydantic import Field
+from typing import Final
 
 from uictest.core import measures
 from uictest.core.document import Column, Table, Tone
+from uictest.core.recording import state_kind
+from uictest.core.units import SIZES
 from uictest.judging import evaluation
-from uictest.report.traces.quantities import WHEELSETS
+from uictest.report.traces.quantities import WHEELSETS, channel_title, shown_unit
 from uictest.report.verdict_sentences import explanation, tally
-from uictest.report.words import DIFFERS, counted, listed, number, printable, quantity, result_word
+from uictest.report.words import (
+    DIFFERS,
+    counted,
+    listed,
+    measure_heading,
+    number,
+    printable,
+    quantity,
+    result_word,
+)
 
 CELSIUS: Final = "degC"
+_DIGITS: Final = 6
+"""Digits of the sides of a difference: a tolerance may be a thousandth of them. Chosen."""
 _LARGEST_PERCENT: Final = 1000
 """A relative figure that is still written out; chosen."""
 
@@ -25,7 +36,8 @@ Value = int | float | str
 """A number, NaN where there is none; or a text: an outcome, a verdict, a unit."""
 
 
-class StatusChange(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class StatusChange:
     """The outcome of a case or series on both sides, or the status of one criterion; None: there is none."""
 
     first: evaluation.Outcome | evaluation.Status | None
@@ -48,7 +60,7 @@ class Difference:
 
     `case` is empty for a recording. `first`, `second`, `deviation` and `allowed` are in `unit`; the last two
     are None where the sides cannot be subtracted. `remark` says where or why. `status` is what an outcome or
-    a verdict was and is; documents have it in words alone.
+    a verdict was and is.
     """
 
     case: str
@@ -60,7 +72,7 @@ class Difference:
     deviation: float | None = None
     allowed: float | None = None
     remark: str = ""
-    status: Annotated[StatusChange | None, Field(exclude=True)] = field(default=None, compare=False)
+    status: StatusChange | None = field(default=None, compare=False)
 
 
 def status_difference(case: str, status: StatusChange) -> Difference | None:
@@ -76,7 +88,7 @@ def status_difference(case: str, status: StatusChange) -> Difference | None:
 
 def side_text(value: Value) -> str:
     """Return one side of a difference without its unit."""
-    return value if isinstance(value, str) else number(value)
+    return value if isinstance(value, str) else number(value, _DIGITS)
 
 
 def relative_percent(first: Value, second: Value, unit: str = "") -> float | None:
@@ -91,9 +103,9 @@ def relative_percent(first: Value, second: Value, unit: str = "") -> float | Non
 
 
 def relative_text(first: Value, second: Value, unit: str = "") -> str:
-    """Return this as text; `A is 0` where the first side is 0, else `-` where there is none."""
+    """Return this as text; `from 0` where the first side is 0, else `-` where there is none."""
     if first == 0.0 and not isinstance(second, str):
-        return "A is 0"
+        return "from 0"
     return percent_text(relative_percent(first, second, unit))
 
 
@@ -112,33 +124,105 @@ def percent_text(percent: float | None) -> str:
 def difference_sentence(difference: Difference) -> str:
     """Return one line: `outcome was pass, is fail`, for numbers with deviation and tolerance."""
     first, second = (
-        side if isinstance(side, str) else quantity(side, difference.unit)
+        side if isinstance(side, str) else quantity(side, difference.unit, _DIGITS)
         for side in (difference.first, difference.second)
     )
     sentence = f"{difference.quantity} was {first}, is {second}"
     if difference.deviation is not None and difference.allowed is not None:
-        deviation, allowed = (
-            quantity(size, difference.unit) for size in (difference.deviation, difference.allowed)
-        )
-        sentence += f"; deviation {deviation}, tolerance {allowed}"
+        allowed = quantity(difference.allowed, difference.unit)
+        sentence += f" ({signed_deviation(difference)}; ±{allowed} allowed)"
     return printable(f"{sentence} ({difference.remark})" if difference.remark else sentence)
 
 
-_COLUMNS: Final[tuple[Column[Difference], ...]] = (
-    Column(heading="case", text=lambda each: each.case, literal=True),
-    Column(heading="quantity", text=lambda each: each.quantity, literal=True),
-    Column(heading="baseline", text=lambda each: side_text(each.first), right=True),
-    Column(heading="this run", text=lambda each: side_text(each.second), right=True),
-    Column(heading="deviation", text=lambda each: number(each.deviation), right=True),
-    Column(heading="tolerance", text=lambda each: number(each.allowed), right=True),
-    Column(heading="unit", text=lambda each: each.unit),
-    Column(heading="remark", text=lambda each: each.remark, wraps=True),
+def quantity_title(difference: Difference) -> str:
+    """Return the title of a quantity; a name that is neither a measure of a case nor a channel stays."""
+    if not difference.case:
+        return channel_title(difference.quantity)
+    measure, wheelset = measures.without_wheelset(difference.quantity)
+    heading = measure_heading(measure).words
+    if heading == difference.quantity:
+        return heading
+    title = heading.capitalize()
+    return f"{title} of wheelset {wheelset}" if wheelset else title
+
+
+def in_page_units(difference: Difference) -> Difference:
+    """Return a difference of measures in the units of every page: kN, and shares in %."""
+    measure, _ = measures.without_wheelset(difference.quantity)
+    measure_unit = measure_heading(measure).unit if difference.case else ""
+    unit = shown_unit(measure, measure_unit or difference.unit)
+    if unit == difference.unit or not {unit, difference.unit} <= SIZES.keys():
+        return difference
+    size = SIZES[unit] / SIZES[difference.unit]
+    return dataclasses.replace(
+        difference,
+        unit=unit,
+        first=_scaled_value(difference.first, size),
+        second=_scaled_value(difference.second, size),
+        deviation=None if difference.deviation is None else difference.deviation / size,
+        allowed=None if difference.allowed is None else difference.allowed / size,
+    )
+
+
+def _scaled_value(value: Value, size: float) -> Value:
+    return value if isinstance(value, str) else value / size
+
+
+def signed_deviation(difference: Difference) -> str:
+    """Return second - first with its sign; `-` where the sides cannot be subtracted."""
+    first, second = difference.first, difference.second
+    if isinstance(first, str) or isinstance(second, str) or difference.deviation is None:
+        return "-"
+    return f"{second - first:+.5g}"
+
+
+def relative_cell(quantity: str, first: Value, second: Value, unit: str) -> str:
+    """Return by how many per cent of A's size B exceeds A, or why it is not said; states have no size."""
+    return "-" if state_kind(quantity) else relative_text(first, second, unit)
+
+
+def _quantity_text(difference: Difference) -> str:
+    title = quantity_title(difference)
+    return title if title == difference.quantity else f"{title} ({difference.quantity})"
+
+
+def _of_numbers(text: Callable[[Difference], str]) -> Callable[[Difference], str]:
+    """Return the text of a column in which verdicts and other texts have none."""
+    return lambda each: "" if isinstance(each.first, str) else text(each)
+
+
+_CASE: Final[Column[Difference]] = Column(
+    heading="case", text=lambda each: each.case, wraps=True, literal=True
 )
 
 
-def differences_table(differences: Sequence[Difference], most: int | None = None) -> Table:
-    """Return quantities of a run that are out of the tolerance of its baseline."""
-    return Table(_COLUMNS, differences, all_in="results.json", most=most)
+def differences_table(
+    differences: Iterable[Difference],
+    sides: tuple[str, str] = ("baseline", "this run"),
+    *,
+    all_in: str = "results.json",
+    most: int | None = None,
+) -> Table:
+    """Return differences in the units of every page, under the names of both sides."""
+    first, second = sides
+    columns: tuple[Column[Difference], ...] = (
+        Column(heading="verdict", text=turn, tone=turn_tone),
+        _CASE,
+        Column(heading="quantity", text=_quantity_text, wraps=True, literal=True),
+        Column(heading=first, text=lambda each: side_text(each.first), right=True),
+        Column(heading=second, text=lambda each: side_text(each.second), right=True),
+        Column(heading="change", text=_of_numbers(signed_deviation), right=True),
+        Column(
+            heading=f"% of {first}",
+            text=_of_numbers(lambda each: relative_cell(each.quantity, each.first, each.second, each.unit)),
+            right=True,
+            rank=2,
+        ),
+        Column(heading="allowed", text=_of_numbers(lambda each: number(each.allowed)), right=True, rank=3),
+        Column(heading="unit", text=lambda each: each.unit),
+        Column(heading="remark", text=lambda each: each.remark, wraps=True, rank=4),
+    )
+    return Table(columns, list(map(in_page_units, differences)), all_in=all_in, most=most, grouped_by=_CASE)
 
 
 def turn(difference: Difference) -> str:
@@ -207,6 +291,7 @@ class BaselineComparison:
         series_not_compared: ids of series of the baseline that were not run or not selected.
         notes: inputs that differ.
         values: case -> criterion -> its value in the baseline, in the unit of the run; ids.
+        informing: quantities out of tolerance that no criterion judges: they decide nothing.
 
     """
 
@@ -222,10 +307,11 @@ class BaselineComparison:
     series_not_compared: Sequence[str] = ()
     notes: Sequence[str] = ()
     values: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    informing: Sequence[Difference] = ()
 
     @property
     def agrees(self) -> bool:
-        """Whether everything that was compared is within tolerance."""
+        """Whether every outcome, verdict and judged measure is within tolerance."""
         return not self.differences
 
     @property
@@ -247,17 +333,19 @@ def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) 
 def case_explanation(
     result: evaluation.CaseResult,
     differences: Sequence[Difference],
-    most: int | None = None,
     instants: Mapping[str, str] | None = None,
+    *,
+    briefly: bool = False,
 ) -> list[str]:
-    """Return the reasons for the outcome of a case, and the quantities out of tolerance, `most` of them.
+    """Return the reasons for the outcome of a case, and the quantities out of tolerance.
 
-    `instants` says when the values of criteria, by their ids, were taken.
+    `instants` says when the values of criteria, by their ids, were taken. `briefly` leaves out what a table
+    of the criteria says.
     """
-    outcome, *reasons = explanation(result, instants)
+    outcome, *reasons = explanation(result, instants, briefly=briefly)
     if differences:
         outcome += ". Differs from the baseline"
-    return [outcome, *reasons, *difference_sentences(differences, most)]
+    return [outcome, *reasons, *difference_sentences(differences)]
 
 
 def difference_sentences(differences: Sequence[Difference], most: int | None = None) -> list[str]:
@@ -286,8 +374,11 @@ def baseline_summary(baseline: BaselineComparison) -> str:
     """Return the result of the comparison with the baseline on one line."""
     quantities = counted(baseline.compared, "quantity", "quantities")
     beyond = len(baseline.all_differences)
+    others = len(baseline.informing)
     counts = f"{beyond} out of tolerance, {baseline.within} different within tolerance"
-    result = counts if beyond or baseline.within else "no difference"
+    if others:
+        counts += f"; {others} more that no criterion judges, for information"
+    result = counts if beyond or others or baseline.within else "no difference"
     return f"{quantities} compared with the baseline {printable(baseline.folder)}: {result}"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Sequence
-from typing import Any, Final
+from typing import Any
 
 from uictest.core import measures
 from uictest.core.document import Column
@@ -12,14 +12,12 @@ from uictest.judging import evaluation
 from uictest.report.case_conditions import slide_speed
 
 Stop = evaluation.CaseResult | evaluation.RepeatedStop
-FAILING: Final = 1
-"""Rank of a column that a missed criterion rests on: it is left out last."""
 
 
 def measure_columns(results: Iterable[Any], failing: Collection[str] = ()) -> list[Column[Any]]:
     """Return the columns of measures: of the stop, and for people the largest of the wheelsets.
 
-    Of those that people see, those named in `failing` are left out last where there is no room.
+    Of those that people see, those named in `failing` are never left out for lack of room.
     """
     results = list(results)
     speed = slide_speed(results)
@@ -28,7 +26,7 @@ def measure_columns(results: Iterable[Any], failing: Collection[str] = ()) -> li
         overview = measure.overview
         if overview is not None and _repeats(measure.name, overview.unlike, results):
             overview = None
-        rank = FAILING if measure.name in failing else overview.rank if overview else 0
+        rank = 0 if measure.name in failing else overview.rank if overview else 0
         heading = (overview.short or overview.heading).format(speed) if overview else ""
         of_stop = isinstance(measure, measures.StopColumn)
         if of_stop or overview is not None:

@@ -54,6 +54,9 @@ def differences_form(differences: Sequence[Difference]) -> list[dict[str, Any]]:
     form: list[dict[str, Any]] = evaluation.json_form(
         evaluation.to_json_form(_DIFFERENCES, list(differences))
     )
+    for difference in form:
+        if difference["status"] is None:
+            del difference["status"]
     return form
 
 
@@ -61,7 +64,8 @@ def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
     """Return the JSON form of a comparison: one list of differences, and `agrees` for who needs no more."""
     form: dict[str, Any] = evaluation.to_json_form(_BASELINE, [baseline])[0]
     head = {"folder": baseline.folder, "sha256": baseline.sha256, "agrees": baseline.agrees}
-    return head | form | {"differences": differences_form(baseline.all_differences)}
+    lists = {"differences": baseline.all_differences, "informing": baseline.informing}
+    return head | form | {name: differences_form(differences) for name, differences in lists.items()}
 
 
 def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison | None:
@@ -78,6 +82,8 @@ def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison 
             by_case.setdefault(difference.case, []).append(difference)
         content = {name: value for name, value in content.items() if name != "agrees"}
         content["differences"] = by_case
+        informing = content.get("informing", [])
+        content["informing"] = evaluation.from_json_form(_DIFFERENCES, informing, place="baseline")
     return evaluation.from_json_form(_BASELINE, [content], place="baseline")[0]
 
 

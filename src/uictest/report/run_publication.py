@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from operator import attrgetter
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from uictest.core import measures
-from uictest.core.document import Cell, Column, Document, Lines, Table, keyed_columns, table_of
+from uictest.core.document import (
+    Blocks,
+    Cell,
+    Column,
+    Document,
+    Lines,
+    Section,
+    Table,
+    keyed_columns,
+    table_of,
+)
 from uictest.judging import evaluation
 from uictest.report import page
 from uictest.report.case_conditions import (
@@ -20,7 +31,6 @@ from uictest.report.case_conditions import (
     train_cells,
     train_text,
 )
-from uictest.report.case_lines import close_lines
 from uictest.report.ci_server import run_suites
 from uictest.report.content import RunContent
 from uictest.report.difference import (
@@ -30,7 +40,7 @@ from uictest.report.difference import (
     worst_of_wheelsets,
 )
 from uictest.report.formats import Publication
-from uictest.report.measure_columns import FAILING, measure_columns
+from uictest.report.measure_columns import measure_columns
 from uictest.report.requirements import (
     evidence_table,
     requirements_of,
@@ -51,6 +61,7 @@ from uictest.report.robustness import (
     stops_text,
 )
 from uictest.report.series_report import series_sections, series_tables
+from uictest.report.summary import close_lines, run_summary
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.verdict_sentences import definition_sentence, reading_sentences
 from uictest.report.words import number, tone
@@ -62,6 +73,8 @@ _Case = evaluation.CaseResult
 _DETAIL: Final = 20
 """Rank of what a narrow terminal leaves out first."""
 _SHORT: Final = {"not_valid": "no", "valid": "yes", "not_judged": "-", "met": "met", "missed": "missed"}
+_NEVER_LEFT_OUT: Final = 5
+"""Columns of missed criteria that the narrowest terminal has room for; chosen for 100 characters."""
 _MOST: Final = 100
 """Requirements, readings and quantities out of tolerance that a reader is shown in a summary; chosen."""
 
@@ -70,7 +83,7 @@ def publication_of_run(content: RunContent, texts: Mapping[str, str] | None = No
     """Return a run as it is published, with its documents in JSON."""
     judged: list[_Case | SeriesResult] = [*content.results, *content.series]
     return Publication(
-        document=run_summary(content),
+        document=run_document(content),
         tables=run_tables(content),
         page=lambda: page.page_html(content),
         suites=lambda named: run_suites(content, with_properties=named),
@@ -107,7 +120,6 @@ def cases_table(content: RunContent) -> Table:
     """
     results = content.results
     swept = dict.fromkeys(key for result in results for key in result.parameters)
-    missed = _missed_criteria(results)
     in_train = any(result.train is not None for result in results)
     repeated = any_repeated(results)
     columns: list[Column[_Case]] = [
@@ -142,12 +154,11 @@ def cases_table(content: RunContent) -> Table:
         Column(heading="stops", text=lambda case: stops_text(case) or ("-" if repeated else "")),
         *keyed_columns(TRAIN_COLUMNS if in_train else (), train_cells),
         *keyed_columns(SHARE_COLUMNS if repeated else (), share_cells),
-        *measure_columns(results, failing=missed.values()),
+        *_measured_columns(results),
         *keyed_columns(
             range_columns(measures.STOP_COLUMNS) if repeated else (),
             lambda case: range_cells(case, measures.STOP_COLUMNS),
         ),
-        *(_criterion_column(results, criterion) for criterion, column in missed.items() if not column),
         Column(heading="train", text=train_text, rank=_DETAIL),
     ]
     return Table(columns, results, name="summary")
@@ -159,30 +170,60 @@ def _deciding(case: _Case) -> _Case | evaluation.RailValidity:
 
 
 def _missed_criteria(results: Iterable[_Case]) -> dict[str, str]:
-    """Return the criteria by which cases are not as expected, each with the column that people see, or ""."""
+    """Return the criteria by which cases are not as expected, each with the column that people see, or "".
+
+    Those that most cases miss come first.
+    """
     columns = measures.STOP_COLUMNS | measures.WHEELSET_COLUMNS
     missed = {}
+    counts: Counter[str] = Counter()
     for result in results:
         for verdict in result.criteria if not result.met else ():
             if verdict.status in ("fail", "inconclusive"):
+                counts[verdict.id] += 1
                 measure = measures.MEASURES.get(verdict.measure)
                 name = measure.column.name if measure is not None and measure.column is not None else ""
                 missed[verdict.id] = name if name in columns and columns[name].overview else ""
-    return missed
+    return {criterion: missed[criterion] for criterion, _ in counts.most_common()}
 
 
-def _criterion_column(results: Iterable[_Case], criterion: str) -> Column[_Case]:
+def _measured_columns(results: Sequence[_Case]) -> list[Column[_Case]]:
+    """Return the columns of measures, and of missed criteria those that show another number than these."""
+    missed = _missed_criteria(results)
+    columns = measure_columns(results, failing=missed.values())
+    measures_end = len(columns)
+    for criterion in (name for name, column in missed.items() if not column):
+        rank = 0 if len(columns) - measures_end < _NEVER_LEFT_OUT else 1
+        column = _criterion_column(results, criterion, rank)
+        judged = [result for result in results if column.cell(result) is not None]
+        shown = (k for k, known in enumerate(columns) if known.heading)
+        alike = (k for k in shown if all(columns[k].cell(case) == column.cell(case) for case in judged))
+        if judged and (twin := next(alike, None)) is not None:
+            columns[twin] = replace(columns[twin], rank=0)
+        elif judged:
+            columns.append(column)
+    return columns
+
+
+def _criterion_column(results: Iterable[_Case], criterion: str, rank: int) -> Column[_Case]:
     """Return the values of a criterion whose measure people see in no column."""
     verdicts = {
         result.id: verdict for result in results for verdict in result.criteria if verdict.id == criterion
     }
     unit = next(verdict.unit for verdict in verdicts.values()).removeprefix("1")
 
-    def text(result: _Case) -> str:
-        value = verdicts[result.id].value if result.id in verdicts else None
-        return number(value if value is not None and math.isfinite(value) else None, 4)
+    def value(result: _Case) -> float | None:
+        known = verdicts[result.id].value if result.id in verdicts else None
+        return known if known is not None and math.isfinite(known) else None
 
-    return Column(heading=criterion, unit=unit, text=text, rank=FAILING, right=True)
+    return Column(
+        heading=criterion,
+        unit=unit,
+        value=value,
+        text=lambda case: number(value(case), 4),
+        rank=rank,
+        right=True,
+    )
 
 
 def wheelsets_table(results: Sequence[_Case]) -> Table:
@@ -252,12 +293,14 @@ def readings_table(results: Sequence[_Case]) -> Table:
     return Table(columns, rows, all_in="criteria.csv", most=_MOST)
 
 
-def run_summary(content: RunContent) -> Document:
-    """Return the whole result of a run: the tally, then one row per case, those not met first."""
+def run_document(content: RunContent) -> Document:
+    """Return the whole result of a run: what failed and what is close, then one row per case."""
+    summary = run_summary(content)
     judged: list[_Case | SeriesResult] = [*content.results, *content.series]
     firm = [f"{result.id}: {line}" for result in judged for line in firmness_sentences(result)]
-    sections = [
-        close_lines(content.results, content.series),
+    sections: list[Section] = [
+        Blocks(summary.blocks),
+        close_lines(summary),
         *(content.campaign.sections if content.campaign else ()),
         *series_sections(content.series),
         *_baseline_sections(content),
@@ -267,7 +310,7 @@ def run_summary(content: RunContent) -> Document:
         Lines(list(content.passed_over), "Passed over"),
         readings_table(content.results),
     ]
-    return Document(f"uictest: {content.tally}", sections, list(_about(content)))
+    return Document(f"uictest: {summary.headline}", sections, list(_about(content)))
 
 
 def explained_cases_table(content: RunContent) -> Table:

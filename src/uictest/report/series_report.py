@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from operator import attrgetter
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -15,28 +16,30 @@ from uictest.judging import series
 from uictest.report.formats.text import document_lines, table_lines
 from uictest.report.robustness import firmness_sentences, wheelset_cells
 from uictest.report.verdict_sentences import (
+    MOST_URGENT,
     counts_text,
     definition_sentence,
-    limits,
-    margin_text,
     outcome_sentence,
     unsettled_sentences,
+    value_with_limit,
 )
-from uictest.report.words import CASE_WORDS, counted, number, percent, printable, quantity, result_word, tone
+from uictest.report.words import (
+    CASE_WORDS,
+    counted,
+    listed,
+    number,
+    percent,
+    printable,
+    quantity,
+    result_word,
+    tone,
+)
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult, SeriesStop, SeriesVerdict
 
-_INTERVALS: Final[dict[Method, str]] = {
-    "median": "by order statistics",
-    "mean": "by Student's t",
-    "share": "by Clopper and Pearson",
-}
-"""How the interval of an estimate is found."""
-_OVER_DRY: Final[dict[Method, str]] = {"median": "by MOVER-R", "mean": "by Fieller's theorem"}
-"""How that of a ratio to the dry stops is found."""
 _SIDES: Final[dict[Method, str]] = {"largest": "below", "smallest": "above"}
-_MOST_REASONS: Final = 3
+_MOST_REASONS: Final = 1
 """Reasons for which stops do not count that a sentence names before it counts the others; chosen."""
 _MOST: Final = 300
 """Rows and lines that a summary of a run gives to its series; chosen."""
@@ -64,7 +67,7 @@ def series_tally(results: Sequence[SeriesResult]) -> str:
 def interval(estimate: Estimate) -> str:
     """Return the ends of the interval of an estimate; empty where there is none."""
     ends = estimate.low, estimate.high
-    return "" if any(map(math.isnan, ends)) else " .. ".join(number(end, 4) for end in ends)
+    return "" if any(map(math.isnan, ends)) else " to ".join(number(end, 4) for end in ends)
 
 
 def value_with_interval(estimate: Estimate | None) -> str:
@@ -76,7 +79,7 @@ def value_with_interval(estimate: Estimate | None) -> str:
 
 
 def estimate_words(estimate: Estimate) -> str:
-    """Return the method and the confidence of an estimate: `mean of 9 stops, 95 % interval 1 .. 2 by ...`."""
+    """Return the method and the confidence of an estimate: `mean of 9 stops, 95 % interval 1 to 2`."""
     over = f" over {estimate.dry_stops} dry" if estimate.dry_stops else ""
     made = f"{estimate.method} of {counted(estimate.stops, 'stop')}{over}"
     at = percent(estimate.confidence)
@@ -87,8 +90,7 @@ def estimate_words(estimate: Estimate) -> str:
         limit = "it" if math.isnan(end) else number(end, 4)
         covered = f"at least {percent(estimate.covered)} of such stops lie {_SIDES[estimate.method]} {limit}"
         return f"{made}; {covered} ({at} confidence)"
-    by = (_OVER_DRY if estimate.dry_stops else _INTERVALS)[estimate.method]
-    return f"{made}, {at} interval {interval(estimate)} {by}"
+    return f"{made}, {at} interval {interval(estimate)}"
 
 
 def missing_interval(estimate: Estimate) -> str:
@@ -110,31 +112,40 @@ def confidence_words(judged: SeriesVerdict, confidence: float) -> str:
     if judged.kept is not None and judged.stops:
         ends = statistics.proportion_interval(judged.kept, judged.stops, confidence)
         taken = ", the mean of the dry stops taken as known" if judged.of_dry_stop else ""
-        share = f"{percent(confidence)} interval of the share {' .. '.join(map(percent, ends))}{taken}"
+        share = f"{percent(confidence)} interval of the share {' to '.join(map(percent, ends))}{taken}"
         return f"{judged.kept} of {counted(judged.stops, 'stop')} keep it, {share}"
-    if judged.estimate is None:
-        return ""
-    uncertain = f"; not certain: {limit_inside(judged, 'it')}" if judged.confident is False else ""
-    return f"{estimate_words(judged.estimate)}{uncertain}"
+    return "" if judged.estimate is None else estimate_words(judged.estimate)
 
 
-def limit_inside(judged: SeriesVerdict, within: str) -> str:
-    """Return the limit for which a verdict is not certain: `the lower limit of 90 % lies inside it`.
+def _interval_cell(judged: SeriesVerdict) -> str:
+    """Return how sure a value is: its interval, or the share of such stops on one side of it."""
+    estimate = judged.estimate
+    if judged.kept is not None and judged.stops:
+        return f"{judged.kept} of {counted(judged.stops, 'stop')} keep it"
+    if estimate is None or missing_interval(estimate):
+        return "" if estimate is None else "none"
+    if estimate.method in _SIDES:
+        return f"{percent(estimate.covered, 2)} or more {_SIDES[estimate.method]}"
+    return interval(estimate)
 
-    `within` stands for the interval. Of a share of stops it adds how many would settle it.
+
+def why_uncertain(judged: SeriesVerdict, confidence: float) -> str:
+    """Return why a verdict is not certain: `the 95 % interval 86 to 95 % holds the limit (12 stops)`.
+
+    Of a share of stops it adds how many would settle it.
     """
     verdict, estimate = judged.verdict, judged.estimate
-    bounds = {"lower": verdict.lower, "upper": verdict.upper}
-    inside = [
-        f"the {name} limit of {quantity(bound, verdict.unit)} lies inside {within}"
-        for name, bound in bounds.items()
-        if bound is not None and estimate is not None and estimate.low <= bound <= estimate.high
-    ]
-    if estimate is not None and not estimate.dry_scatter:
+    if estimate is None:
+        return "another speed or rail may decide"
+    if not estimate.dry_scatter:
         return missing_interval(estimate)
-    if not inside:
+    bounds = [bound for bound in (verdict.lower, verdict.upper) if bound is not None]
+    if not any(estimate.low <= bound <= estimate.high for bound in bounds):
         return "a limit lies inside the interval at another speed or rail"
-    return "; ".join([*inside, *_settled_by(judged)])
+    unit = "" if verdict.unit == "1" else f" {verdict.unit}"
+    stops = counted(estimate.stops, "stop")
+    inside = f"the {percent(confidence)} interval {interval(estimate)}{unit} holds the limit ({stops})"
+    return "; ".join([inside, *_settled_by(judged)])
 
 
 def _settled_by(judged: SeriesVerdict) -> Iterator[str]:
@@ -154,25 +165,27 @@ def of_dry_stop(judged: SeriesVerdict) -> str:
     return " of the dry stop" if judged.of_dry_stop else ""
 
 
+def series_value_text(judged: SeriesVerdict) -> str:
+    """Return a value with its limit and its speed: `118.3 % of the dry stop (limit 125 %) from 120 km/h`."""
+    if judged.verdict.value is None:
+        return judged.verdict.reason
+    from_speed = f" from {judged.place}" if judged.speed_kmh is not None else ""
+    return f"{value_with_limit(judged.verdict, of_dry_stop(judged))}{from_speed}"
+
+
 def series_verdict_sentence(judged: SeriesVerdict, confidence: float) -> str:
-    """Return the verdict on one line: value, limits, margin or reason, and how sure it is."""
-    verdict, told = judged.verdict, judged.verdict.reason
-    if verdict.value is not None:
-        at_speed = f" from {judged.place}" if judged.place else ""
-        value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(judged)}{at_speed}"
-        told = f"{value}, {limits(verdict)}, margin {margin_text(verdict)}"
-    head = f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {told}"
-    return printable("; ".join(filter(None, (head, confidence_words(judged, confidence)))))
+    """Return the verdict on one line: value and limit, or the reason, and how sure it is."""
+    uncertain = f"not certain: {why_uncertain(judged, confidence)}" if judged.confident is False else ""
+    head = f"{judged.verdict.id} {judged.verdict.status.replace('_', ' ')}: {series_value_text(judged)}"
+    return printable("; ".join(filter(None, (head, confidence_words(judged, confidence), uncertain))))
 
 
 def count_sentences(result: SeriesResult) -> Iterator[str]:
-    """Yield for each speed and rail how many stops count, and K_wet without WSP where it is better."""
+    """Yield for each speed and rail how many stops count."""
     for speed in result.speeds:
         dry, wet = (f"{stops.counted} of {stops.run}" for stops in (speed.dry, speed.wet))
         share = f"{percent(speed.wet.share)}, {percent(result.valid_stops)} needed"
         yield f"Valid stops from {speed.place}: dry {dry}, wet {wet} ({share})"
-    if sentence := bypassed_is_better(result):
-        yield sentence
 
 
 def bypassed_is_better(result: SeriesResult) -> str:
@@ -182,7 +195,7 @@ def bypassed_is_better(result: SeriesResult) -> str:
     if bypassed is None or tested is None or bypassed.value <= tested.value:
         return ""
     values = (f"{number(k_wet.value, 4)} ({interval(k_wet) or '-'})" for k_wet in (bypassed, tested))
-    better = "K_wet is better with the WSP bypassed, {}, than with the tested one, {}".format(*values)
+    better = "K_wet is better with the WSP bypassed, {}, than with the tested WSP, {}".format(*values)
     return "; ".join([better, *_longest_locked(result)])
 
 
@@ -197,7 +210,7 @@ def _longest_locked(result: SeriesResult) -> Iterator[str]:
     )
     if math.isfinite(without) and math.isfinite(tested):
         times = quantity(without, "s"), quantity(tested, "s")
-        yield "a wheelset is locked for up to {} with it bypassed, {} with the tested one".format(*times)
+        yield "wheelsets lock for up to {} with it bypassed, {} with the tested WSP".format(*times)
 
 
 def _longest(stops: Iterable[SeriesStop]) -> float:
@@ -211,10 +224,10 @@ def not_counted_sentences(result: SeriesResult) -> Iterator[str]:
     for outcome, count in Counter(stop.outcome for stop in result.not_counted).items():
         stops = [stop for stop in result.not_counted if stop.outcome == outcome]
         reasons = list(dict.fromkeys(stop.reason for stop in stops))
-        listed = "; ".join(reasons[:_MOST_REASONS])
+        first = "; ".join(reasons[:_MOST_REASONS])
         if (more := len(reasons) - _MOST_REASONS) > 0:
-            listed += f"; {counted(more, 'more reason')}"
-        yield printable(f"{counted(count, 'stop')} {outcome}, not counted: {listed}")
+            first += f"; {counted(more, 'more reason')}"
+        yield printable(f"{counted(count, 'stop')} {outcome}, not counted: {first}")
 
 
 def stops_sentences(result: SeriesResult) -> list[str]:
@@ -223,15 +236,29 @@ def stops_sentences(result: SeriesResult) -> list[str]:
 
 
 def series_explanation(result: SeriesResult) -> list[str]:
-    """Return the reasons for an outcome: expectation, stops that count, criteria that decided."""
+    """Return the reasons for an outcome: expectation, the criteria that decided it, how sure they are."""
     deciding = [judged for judged in result.criteria if judged.verdict.status in ("fail", "inconclusive")]
     return [
-        outcome_sentence(result, [judged.verdict.id for judged in deciding]),
+        outcome_sentence(result, list(_deciding_texts(deciding))),
         *([printable(result.reason)] if result.reason and not deciding else []),
-        *(series_verdict_sentence(judged, result.confidence) for judged in deciding),
+        *(
+            printable(f"{judged.verdict.id}: {words}")
+            for judged in deciding
+            if (words := confidence_words(judged, result.confidence))
+        ),
         *unsettled_of_series(result),
-        *stops_sentences(result),
     ]
+
+
+def _deciding_texts(deciding: Sequence[SeriesVerdict]) -> Iterator[str]:
+    """Yield each criterion with its value; those without one together, once for each reason."""
+    without: dict[str, list[str]] = {}
+    for judged in deciding:
+        if judged.verdict.value is None:
+            without.setdefault(judged.verdict.reason, []).append(judged.verdict.id)
+        else:
+            yield f"{judged.verdict.id} {series_value_text(judged)}"
+    yield from (f"{listed(names)}: {reason}" for reason, names in without.items())
 
 
 def unsettled_of_series(result: SeriesResult) -> list[str]:
@@ -320,6 +347,9 @@ def _estimate_column(key: str) -> Column[JudgedCriterion]:
     return Column(key=key, value=lambda row: row.estimated(key))
 
 
+_HOW_SURE: Final[Column[JudgedCriterion]] = Column(
+    heading="how sure", text=lambda row: _interval_cell(row.criterion)
+)
 _CRITERIA: Final[tuple[Column[JudgedCriterion], ...]] = (
     Column(key="series", heading="series", value=lambda row: row.result.id, literal=True),
     Column(
@@ -339,21 +369,20 @@ _CRITERIA: Final[tuple[Column[JudgedCriterion], ...]] = (
     ),
     Column(
         key="value",
-        heading="value",
+        heading="value and limit",
         value=lambda row: row.criterion.verdict.value,
-        text=lambda row: quantity(row.criterion.verdict.value, row.criterion.verdict.unit),
-        right=True,
+        text=lambda row: (
+            row.criterion.verdict.reason
+            if row.criterion.verdict.value is None
+            else value_with_limit(row.criterion.verdict, of_dry_stop(row.criterion))
+        ),
+        wraps=True,
     ),
-    *(Column(key=name, value=attrgetter(f"criterion.verdict.{name}")) for name in ("unit", "lower", "upper")),
-    Column(
-        heading="limit", text=lambda row: f"{limits(row.criterion.verdict, '')}{of_dry_stop(row.criterion)}"
-    ),
-    Column(
-        key="margin",
-        heading="margin",
-        value=lambda row: row.criterion.verdict.margin,
-        text=lambda row: margin_text(row.criterion.verdict),
-        right=True,
+    _HOW_SURE,
+    Column(heading="from", text=lambda row: row.criterion.place, rank=1),
+    *(
+        Column(key=name, value=attrgetter(f"criterion.verdict.{name}"))
+        for name in ("unit", "lower", "upper", "margin")
     ),
     Column(key="speed_kmh", value=lambda row: row.criterion.speed_kmh),
     Column(key="rail", value=lambda row: row.criterion.rail),
@@ -362,13 +391,11 @@ _CRITERIA: Final[tuple[Column[JudgedCriterion], ...]] = (
     *map(_estimate_column, _ESTIMATE),
     Column(key="reason", value=lambda row: row.criterion.verdict.reason),
     Column(
-        heading="confidence",
-        text=lambda row: (
-            confidence_words(row.criterion, row.result.confidence) or row.criterion.verdict.reason
-        ),
-        wraps=True,
+        key="requirements",
+        heading="requirements",
+        value=lambda row: "; ".join(row.criterion.verdict.requirements),
+        rank=2,
     ),
-    Column(key="requirements", value=lambda row: "; ".join(row.criterion.verdict.requirements)),
     Column(key="definition", value=lambda row: definition_sentence(row.criterion.verdict)),
 )
 
@@ -380,9 +407,12 @@ def series_criteria_table(results: Sequence[SeriesResult], most: int | None = No
 
 
 def criteria_of(result: SeriesResult) -> Table:
-    """Return the criteria of one series for people."""
-    rows = [JudgedCriterion(result, criterion) for criterion in result.criteria]
-    return Table(_CRITERIA[1:], rows, all_in=_ALL_CRITERIA)
+    """Return the criteria of one series for people, failing ones first."""
+    urgent_first = sorted(result.criteria, key=lambda judged: MOST_URGENT.index(judged.verdict.status))
+    rows = [JudgedCriterion(result, criterion) for criterion in urgent_first]
+    sure = f"{percent(result.confidence)} sure"
+    columns = [replace(each, heading=sure) if each is _HOW_SURE else each for each in _CRITERIA[1:]]
+    return Table(columns, rows, all_in=_ALL_CRITERIA)
 
 
 def comparison_table(results: Sequence[SeriesResult]) -> Table:
@@ -423,13 +453,15 @@ def _compared_criterion(first: SeriesVerdict, rank: int) -> Column[SeriesResult]
 
 
 def series_lines_of_terminal(results: Sequence[SeriesResult], width: int | None) -> Iterator[str]:
-    """Yield the lines of the comparison and of the criteria of every series."""
-    yield from table_lines(comparison_table(results), width)
+    """Yield the lines of the comparison, where there are several series, and of the criteria of each."""
+    if len(results) > 1:
+        yield from table_lines(comparison_table(results), width)
     for result in results:
         yield ""
         yield f"{result_word(result)} {printable(result.id)}"
-        document = Document(result.id, [criteria_of(result), Lines(stops_sentences(result))])
-        yield from (f"  {line}" for line in document_lines(document, None if width is None else width - 2))
+        yield from document_lines(
+            Document(result.id, [criteria_of(result), Lines(stops_sentences(result))]), width
+        )
 
 
 def series_sections(results: Sequence[SeriesResult]) -> list[Table | Lines]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal
 
 from uictest.core.measures import MEASURES
 from uictest.judging import evaluation
@@ -15,6 +15,7 @@ from uictest.report.words import (
     CASE_WORDS,
     DIFFERS,
     NAMED,
+    UNSETTLED,
     counted,
     number,
     printable,
@@ -26,13 +27,10 @@ if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult
 
 
-def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
-    """Return the limits of a criterion, e.g. `limits 440 .. 490 m`, `lower limit 35 %`, `no limit`.
-
-    `word` stands before a pair of limits.
-    """
+def limits(verdict: evaluation.Verdict) -> str:
+    """Return the limits of a criterion, e.g. `440 .. 490 m`, `lower limit 35 %`, `no limit`."""
     if verdict.lower is not None and verdict.upper is not None:
-        return f"{word}{number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
+        return f"{number(verdict.lower)} .. {quantity(verdict.upper, verdict.unit)}"
     if verdict.lower is not None:
         return f"lower limit {quantity(verdict.lower, verdict.unit)}"
     if verdict.upper is not None:
@@ -40,16 +38,59 @@ def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
     return "no limit"
 
 
-def margin_text(verdict: evaluation.Verdict) -> str:
-    """Return the margin of a criterion; of a share in points, as per cent are those of its limit."""
-    return quantity(verdict.margin, "points" if verdict.unit == "%" else verdict.unit)
+def value_with_limit(verdict: evaluation.Verdict, of_what: str = "") -> str:
+    """Return a missed value and what it should be: `77 s (limit 1 s)`, `0 % of the time (35 % needed)`.
 
-
-def value_and_limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
-    """Return the value of a criterion next to its limits, e.g. `0 % of the time, lower limit 35 %`."""
+    `of_what` says after the value what it is a share of, where its measure does not.
+    """
     measure = MEASURES.get(verdict.measure)
-    of = f" {measure.share_of}" if measure is not None and measure.share_of else ""
-    return f"{quantity(verdict.value, verdict.unit)}{of}, {limits(verdict, word)}"
+    of = f" {measure.share_of}" if measure is not None and measure.share_of else of_what
+    value = f"{quantity(verdict.value, verdict.unit)}{of}"
+    if verdict.lower is not None and verdict.upper is not None:
+        return f"{value} ({number(verdict.lower)} to {quantity(verdict.upper, verdict.unit)})"
+    if verdict.lower is not None:
+        return f"{value} ({quantity(verdict.lower, verdict.unit)} needed)"
+    return value if verdict.upper is None else f"{value} (limit {quantity(verdict.upper, verdict.unit)})"
+
+
+MissKind = (
+    evaluation.Outcome | Literal["check", "unexpected", "strict", "unsettled", "differs", "missing", "series"]
+)
+"""In what way something is not as expected: by its outcome, or by what was expected of it."""
+MISSES: Final[Mapping[MissKind, tuple[str, str]]] = {
+    "error": ("could not be run", "could not be run"),
+    "check": ("fails a check of the rig or of the record", "fail a check of the rig or of the record"),
+    "fail": ("misses requirements", "miss requirements"),
+    "invalid": ("is not a valid test", "are not valid tests"),
+    "inconclusive": ("lacks data for a verdict", "lack data for a verdict"),
+    "skipped": ("is not judged", "are not judged"),
+    "unexpected": ("should not have passed", "should not have passed"),
+    "strict": ("meets an expectation that --strict refuses", "meet expectations that --strict refuses"),
+    "unsettled": ("has a verdict that is not settled", "have verdicts that are not settled"),
+    "differs": ("differs from the baseline", "differ from the baseline"),
+    "missing": ("is in the baseline and missing here", "are in the baseline and missing here"),
+    "series": ("is not as expected", "are not as expected"),
+}
+"""What it says of one case, and of several; the first is read first."""
+
+
+def miss_kind(result: evaluation.CaseResult) -> MissKind:
+    """Return in what way a case is not as expected."""
+    if result.outcome == "error":
+        return "error"
+    if result_word(result) == UNSETTLED:
+        return "unsettled"
+    if result.as_expected:
+        return "strict"
+    if result.outcome == "pass":
+        return "unexpected"
+    return "check" if any(verdict.is_check for verdict in decisive_verdicts(result)) else result.outcome
+
+
+def decisive_verdicts(result: evaluation.CaseResult) -> list[evaluation.Verdict]:
+    """Return the verdicts that decide the outcome of a case; of a repeated one those over its stops."""
+    outcome, verdicts = evaluation.deciding_verdicts(result.decided)
+    return verdicts if outcome == result.outcome else list(_deciding_verdicts(result))
 
 
 MOST_URGENT: Final = ("fail", "inconclusive", "pass", "not_applicable")
@@ -92,7 +133,7 @@ def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
-    reason = verdict.reason or f"{value_and_limits(verdict)}, margin {margin_text(verdict)}"
+    reason = verdict.reason or value_with_limit(verdict)
     return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {reason}")
 
 
@@ -101,10 +142,13 @@ def definition_sentence(verdict: evaluation.Verdict) -> str:
     return printable(", ".join(f"{name} = {text}" for name, text in verdict.definition.items()))
 
 
-def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | None = None) -> list[str]:
+def explanation(
+    result: evaluation.CaseResult, instants: Mapping[str, str] | None = None, *, briefly: bool = False
+) -> list[str]:
     """Return the reasons for an outcome: expectation, causes, reason, each criterion that decided it.
 
-    `instants` says when the values of criteria, by their ids, were taken.
+    `instants` says when the values of criteria, by their ids, were taken. `briefly` leaves out what a table
+    of the criteria says.
     """
     instants = instants or {}
     deciding = sorted(_deciding_verdicts(result), key=lambda verdict: not verdict.is_check)
@@ -112,22 +156,22 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
     # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
     # without any it is all there is.
     alone = not deciding or result.outcome == "error"
-    outcome, verdicts = evaluation.deciding_verdicts(result.decided)
-    if outcome != result.outcome:  # as over the stops of a repeated case
-        verdicts = list(_deciding_verdicts(result))
     missed = [
         missed_sentence(verdict, instants.get(verdict.id, ""))
-        for verdict in verdicts
+        for verdict in decisive_verdicts(result)
         if verdict.status in ("fail", "inconclusive")
     ]
     unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in lines.values()]
     return [
         outcome_sentence(result, missed),
-        *([statement_sentence(result)] if result.criteria else ()),
-        *cause_sentences(result),
+        *([statement_sentence(result)] if result.criteria and not briefly else ()),
+        *dict.fromkeys([*cause_sentences(result), *rail_sentences(result)]),
         *repeat_sentences(result),
         *([printable(result.reason)] if result.reason and alone else ()),
-        *(f"{line} (taken at {at})" if (at := instants.get(name)) else line for name, line in lines.items()),
+        *(
+            f"{line} (taken at {at})" if (at := instants.get(name)) else line
+            for name, line in ({} if briefly else lines).items()
+        ),
         *unsettled,
         *(firmness_sentences(result) if result.lacks_firmness else ()),
     ]
@@ -142,13 +186,13 @@ def _deciding_verdicts(result: evaluation.CaseResult) -> Iterator[evaluation.Ver
 
 
 def missed_sentence(verdict: evaluation.Verdict, at: str = "") -> str:
-    """Return a missed criterion with its value and limit: `locked-wheels 62 s, upper limit 1 s`.
+    """Return a missed criterion with its value and limit: `locked-wheels 62 s (limit 1 s)`.
 
     `at` says when the value was taken.
     """
     if verdict.value is None or verdict.status != "fail":
         return printable(verdict.id)
-    return printable(f"{verdict.id} {value_and_limits(verdict)}{f', at {at}' if at else ''}")
+    return printable(f"{verdict.id} {value_with_limit(verdict)}{f', at {at}' if at else ''}")
 
 
 def statement_sentence(result: evaluation.CaseResult) -> str:
@@ -164,7 +208,7 @@ def statement_sentence(result: evaluation.CaseResult) -> str:
 
 
 def allowed_sentences(results: Iterable[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield the allowed misses: `allowed: low-adhesion-80: locked-wheels 62 s, upper limit 1 s`."""
+    """Yield the allowed misses: `allowed: low-adhesion-80: locked-wheels 62 s (limit 1 s)`."""
     for result in results:
         if result.allowed:
             missed = "; ".join(map(missed_sentence, result.allowed))
@@ -182,7 +226,7 @@ def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]
 
 
 def outcome_sentence(result: evaluation.CaseResult | SeriesResult, deciding: Sequence[str]) -> str:
-    """Return the outcome with what decided it: `fail: locked-wheels 2 s, upper limit 1 s. Expected: pass`."""
+    """Return the outcome with what decided it: `fail: locked-wheels 2 s (limit 1 s). Expected: pass`."""
     by = printable("; ".join(deciding))
     unsettled = bool(result.unsettled) or result.lacks_firmness
     outcome = f"{result.outcome}{', unsettled' if unsettled else ''}{f': {by}' if by else ''}"
@@ -271,34 +315,26 @@ _BYPASSED: Final = "WSP bypassed: the controller did not act, the stop says noth
 
 
 def cause_sentences(result: evaluation.CaseResult) -> list[str]:
-    """Return the causes of an outcome that lie in the stop: faults, a bypassed WSP, the rail."""
+    """Return the causes of an outcome that lie in the stop: faults, a bypassed WSP, too good a rail."""
+    rail = [] if result.rail and result.rail.test_validity == "valid" else rail_sentences(result)
     bypassed = [_BYPASSED] if is_bypassed(result.parts) else []
     parameters = [parameter for part in result.parts.values() for parameter in part.parameters]
-    return [*fault_sentences(parameters), *bypassed, *rail_sentences(result)]
+    return [*fault_sentences(parameters), *bypassed, *rail]
 
 
 def rail_sentences(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield the reason for which the stop is not a test, and the validity of the rail itself."""
+    """Yield whether the rail itself makes a stop a test: with the WSP bypassed, where that was run."""
     if (rail := result.rail) is None:
         return
-    failed = [
-        verdict for verdict in result.criteria if verdict.layer == "validity" and verdict.status == "fail"
-    ]
-    by_itself = f"does not count as a test by the stop itself: {', '.join(map(_value_with_limit, failed))}; "
-    of_rail = [_value_with_limit(verdict) for verdict in rail.criteria if verdict.value is not None]
-    observations = ", ".join([*of_rail, *(["wheels lock"] if rail.wheels_lock else [])])
-    which = f"the rail itself (WSP bypassed{', which decides' if rail.decides else ''})"
-    validity = rail.test_validity.replace("_", " ")
-    of_the_rail = f"{which} is {validity}: {observations}; friction as found {rail.friction}"
-    yield printable(f"{by_itself if failed else ''}{of_the_rail}")
-
-
-def _value_with_limit(verdict: evaluation.Verdict) -> str:
-    """Return the value of a criterion with its limit: `initial-adhesion 0.0851 g (< 0.08)`."""
-    value = "-" if verdict.value is None else f"{verdict.value:.3g} {verdict.unit}"
-    limit = verdict.upper if verdict.lower is None else verdict.lower
-    sign = "<" if verdict.lower is None else ">"
-    return f"{verdict.id} {value}{'' if limit is None else f' ({sign} {limit:g})'}"
+    values = [f"{each.id} {value_with_limit(each)}" for each in rail.criteria if each.value is not None]
+    seen = ", ".join([*values, *(["wheels lock"] if rail.wheels_lock else [])])
+    either = "" if result.test_validity == "valid" else " either"
+    words = {"valid": "a valid test", "not_valid": f"not a valid test{either}", "not_judged": "not judged"}
+    says = words[rail.test_validity]
+    decides = ", which decides" if rail.decides else ""
+    advice = "; lower the friction or raise the command" if rail.test_validity == "not_valid" else ""
+    text = f"with the WSP bypassed the stop is {says}{decides}: {seen}; friction {rail.friction}{advice}"
+    yield printable(text)
 
 
 def is_bypassed(parts: Mapping[str, evaluation.EffectivePart]) -> bool:

@@ -92,14 +92,15 @@ def listed(names: Sequence[str]) -> str:
     return f"{first} and {more} more" if more > 0 else first
 
 
-def number(value: float | None, digits: int = 5) -> str:
+def number(value: float | None, digits: int = 4) -> str:
     """Return a number with so many significant digits, `-` where there is none (None or NaN)."""
     return "-" if value is None or math.isnan(value) else f"{value:.{digits}g}"
 
 
-def quantity(value: float | None, unit: str) -> str:
+def quantity(value: float | None, unit: str, digits: int = 4) -> str:
     """Return a number with its unit; the unit 1 of a pure number is left out."""
-    return number(value) if value is None or unit in ("", "1") else f"{number(value)} {unit}"
+    text = number(value, digits)
+    return text if value is None or unit in ("", "1") else f"{text} {unit}"
 
 
 def percent(share: float, digits: int = 4) -> str:
@@ -137,8 +138,6 @@ def measure_words(column: str) -> str:
 
 DIFFERS: Final = "differs"
 """The word for a case that meets its expectation and differs from the baseline."""
-EXPLAINED: Final = ("fail", "invalid")
-"""Outcomes whose criteria a terminal shows with value and limit even where they are expected."""
 UNSETTLED: Final = "unsettled"
 """The word for what has its expected outcome, but not every verdict settled, where that was asked for."""
 ALLOWED: Final = ("allowed fail", "allowed invalid")
@@ -170,11 +169,6 @@ def result_word(result: evaluation.CaseResult | SeriesResult) -> str:
     if result.met and result.expect.is_allowance and result.outcome != "pass":
         return f"allowed {result.outcome}"
     return outcome_word(result.outcome, met=result.met)
-
-
-def line_word(word: str) -> str:
-    """Return a word of `CASE_WORDS` without blanks: in a line for grep it is the first field."""
-    return word.replace(" ", "-")
 
 
 def tone(word: str) -> Tone:

@@ -47,13 +47,13 @@ from .scenario_files import (
     sweep_files as sweep_files,
 )
 from .sweep import (
+    FinishedSweep as FinishedSweep,
     MaxfailReached as MaxfailReached,
     SweepRequest as SweepRequest,
     ToleranceError as ToleranceError,
     first_pair as first_pair,
     frontier_search as frontier_search,
     measure_names as measure_names,
-    reason_missed as reason_missed,
     run_sweep as run_sweep,
 )
 from .validation import (

@@ -313,11 +313,6 @@ def _run_chunks(
         raise OSError(str(error)) from error
 
 
-def reason_missed(reason: str) -> str:
-    """Return the reason if a case is not met; one that passes unexpectedly has no reason of its own."""
-    return reason or "another outcome was expected"
-
-
 class _Failures:
     """Counts the missed cases, chunk by chunk, up to `maxfail`."""
 
@@ -338,7 +333,7 @@ class _Failures:
         missed = [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
         if missed and not self._first:
             outcome, name, reason = missed[0]
-            self._first = f"{name}: {outcome}, {reason_missed(reason)}"
+            self._first = f"{name}: {outcome}, {reason or 'another outcome was expected'}"
         self._count += len(missed)
         if self._count >= self._maxfail:
             raise MaxfailReached(f"{report.counted(self._count, 'case')} not met, the first: {self._first}")

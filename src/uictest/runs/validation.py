@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from uictest import report
-from uictest.analysis import validation
+from uictest.analysis import comparison, validation
 from uictest.core import files
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
@@ -22,6 +22,9 @@ from uictest.runs.batch import simulate_cases
 from uictest.runs.observer import Observer
 from uictest.runs.recorded import RecordedFile, named_map, read_files
 from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
+
+DRAWN: Final = 4
+"""Recorded stops that the page draws with their simulations, those furthest off; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,10 +142,11 @@ def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult
 
 
 class ValidationRun(NamedTuple):
-    """A validation, and whether every simulation for it came to an end."""
+    """A validation, whether every simulation for it came to an end, and the stops that are drawn."""
 
     validation: validation.Validation
     complete: bool
+    drawn: Sequence[comparison.Overlay]
 
 
 def run_validation(
@@ -154,8 +158,10 @@ def run_validation(
     """
     stops, read = recorded_stops(plan, trusted)
     usable = [stop for stop in stops if stop.file.stop is not None]
-    settings = campaign.RunSettings(jobs, campaign.RecordingRequest("none"))
-    simulated = simulate_cases([stop.case for stop in usable], settings, observer, unit="stops").whole()
+    settings = campaign.RunSettings(jobs, campaign.RecordingRequest("all"))
+    drawing = _FurthestOff({stop.case.id: stop for stop in usable if not stop.not_counted})
+    cases = [stop.case for stop in usable]
+    simulated = simulate_cases(cases, settings, observer, drawing.add, unit="stops").whole()
     results = dict(zip((stop.case.id for stop in usable), simulated, strict=True))
     pairs: list[validation.StopUnderConditions] = []
     for stop in stops:
@@ -164,16 +170,47 @@ def run_validation(
         compared = compared_stop(stop, results.get(stop.case.id))
         pairs.append(validation.StopUnderConditions(compared, conditions))
     complete = all(result.outcome != "error" for result in simulated)
-    return ValidationRun(validation.validation_of(plan, pairs, read), complete)
+    return ValidationRun(validation.validation_of(plan, pairs, read), complete, drawing.overlays)
 
 
-def publish_validation(validated: validation.Validation, arguments: Sequence[str], output: Path) -> Path:
+class _FurthestOff:
+    """Lays the simulations of recorded stops, given by id, over the records: of those furthest off."""
+
+    def __init__(self, stops: Mapping[str, RecordedStopOfPlan]) -> None:
+        self._stops = stops
+        self._drawn: list[tuple[float, comparison.Overlay]] = []
+
+    @property
+    def overlays(self) -> list[comparison.Overlay]:
+        """The stops drawn, the furthest off first."""
+        return [overlay for _, overlay in self._drawn]
+
+    def add(self, run: campaign.CaseRun) -> None:
+        """Draw a simulated stop, unless there are enough that are further off."""
+        stop = self._stops.get(run.result.id)
+        if stop is None or stop.file.stop is None or run.recording is None:
+            return
+        recorded, samples = field_data.judge_recording(stop.case, stop.file.stop)
+        off = validation.relative_difference(
+            validation.figures_of(recorded), validation.figures_of(run.result)
+        )
+        if math.isnan(off):
+            return
+        if len(self._drawn) == DRAWN and abs(off) <= self._drawn[-1][0]:
+            return
+        overlay = comparison.stops_laid_over(run.result.id, (samples, run.recording))
+        self._drawn.append((abs(off), overlay))
+        self._drawn = sorted(self._drawn, key=lambda drawn: -drawn[0])[:DRAWN]
+
+
+def publish_validation(run: ValidationRun, arguments: Sequence[str], output: Path) -> Path:
     """Write the files of a validation into a folder of its own below `output`; return it. Raises OSError."""
+    validated = run.validation
     manifest = report.run_manifest(arguments, None, validated.inputs, len(validated.stops))
     publication = report.Publication(
         document=validation.validation_document(validated),
         tables=[validation.figures_table(validated), validation.stops_table(validated)],
-        page=lambda: validation.validation_html(validated),
+        page=lambda: validation.validation_html(validated, run.drawn),
         texts={validation.RESULT: validation.validation_json(validated)},
     )
     with files.RunFolder(output, f"validation-{report.run_name(datetime.now(UTC), manifest)}") as folder:

@@ -84,8 +84,8 @@ _COLUMNS: Final[tuple[Column[Finding], ...]] = (
         rank=3,
         right=True,
     ),
-    Column(heading="unit", text=lambda finding: finding.unit, rank=3),
-    Column(heading="requirement", text=lambda finding: finding.requirement, rank=2),
+    Column(heading="unit", text=lambda finding: finding.unit, rank=2),
+    Column(heading="requirement", text=lambda finding: finding.requirement, rank=3),
 )
 
 

@@ -262,10 +262,12 @@ def test_quiet_shows_what_is_missed_and_nothing_else(call, study, whole):
     assert (answer.out, answer.err) == ("", "")
     append_to_scenario("expect: fail\n")
     answer = call("sweep", study, "-q", "--restart", code=1)
-    first, *_, last = answer.out.splitlines()
+    first, example, command, _, last = answer.out.splitlines()
     assert answer.err == ""
-    assert first == "pass  study[friction=0.08,sample=0]  another outcome was expected"
-    assert last == "and 86 more, see summary.csv"
+    assert first == "96 cases should not have passed"
+    assert example.startswith("  worst study[friction=")
+    assert command.startswith("  uictest sweep study.sweep.yaml -k 'study[friction=")
+    assert last == "all of them: summary.csv"
 
 
 def test_what_a_sweep_shows_in_lists_documents_and_quietly(call, study):

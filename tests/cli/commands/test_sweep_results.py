@@ -90,8 +90,8 @@ def test_a_damaged_sweep_is_rejected(call, pads, name):
 def test_github_gets_annotations_below_the_findings_and_alone_with_q(call, pads):
     lines = call("sweep", pads(), "--format", "github").out.splitlines()
     errors = [line for line in lines if line.startswith("::error ")]
-    assert len(errors) == 4
-    assert "file=pads.sweep.yaml,title=unexpected pass pads[" in errors[0]
+    [error] = errors  # one for all that is missed alike
+    assert "file=pads.sweep.yaml,title=4 cases should not have passed::worst pads[" in error
     notice = "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 pass; 4 not as expected"
     assert lines[-1] == notice
     assert any("Cases met" in line for line in lines)
@@ -118,7 +118,7 @@ def test_the_page_draws_the_worst_cases_and_is_made_again_and_nothing_of_an_earl
 
 def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call, pads):
     call("sweep", pads(), "--seed", "7", "--set", "brake.command=80 %,90 %", "--report", "html,csv")
-    written = re.search(r"<code>([^<]* -k [^<]*)</code>", (FOLDER / "index.html").read_text("utf-8"))
+    written = re.search(r"<code>([^<]* -k [^<]*CASE[^<]*)</code>", (FOLDER / "index.html").read_text("utf-8"))
     for command in ("80", "90"):
         case = f"pads[command={command},pad_friction=0.30]"
         words = shlex.split(html.unescape(written[1]).replace("CASE", case))
@@ -147,7 +147,7 @@ def test_so_many_cases_are_written_as_csv_only_when_asked(call, pads, monkeypatc
     assert (FOLDER / "summary.csv").exists() == bool(options)
     assert (FOLDER / "summary.parquet").exists()
     assert ("note: every case is a row of summary.parquet" in answer.out) != bool(options)
-    assert "more, see summary.parquet" in answer.out
+    assert "all of them: summary.parquet" in answer.out
 
 
 def test_cases_that_no_criterion_applies_to_are_counted(call, pads):
@@ -183,7 +183,7 @@ def test_a_survey_says_what_it_repeated_and_what_its_step_does(call, pads):
     begin = "survey in steps of 1 ms, which settled all of 4 cases"
     assert f"note: {begin}" in result.out
     assert "note: bias of the survey step: uncorrected_braking_distance at most" in result.out
-    assert bias["case"] in result.out
+    assert bias["case"] in "".join(result.out.split())
     for name in ("summary.md", "index.html"):
         assert begin in html.unescape((FOLDER / name).read_text()), name
     table = pq.read_table(FOLDER / "summary.parquet").to_pylist()

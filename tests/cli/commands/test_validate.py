@@ -75,7 +75,37 @@ def test_a_known_bias_of_the_distance_is_found(validate):
     expected = np.mean([error / (SIMULATED - error) for error in (5, 10, 15)])
     assert float(figure["relative_bias"]) == pytest.approx(expected, rel=1e-4)
     lines = answer.out.splitlines()
+    bias, low, high = (
+        100.0 * float(figure[f"relative_{name}"]) for name in ("bias", "bias_low", "bias_high")
+    )
+    said = (
+        "no difference is shown by 3 stops"
+        if low < 0.0 < high
+        else f"simulated stops are {bias:.2g} % longer"
+    )
+    assert lines[0].startswith(said)
     assert any(line.startswith("braking_distance_m") and "+10" in line for line in lines)
+    assert [line.split()[0] for line in lines if line.startswith("my-train.stop.")] == [
+        f"my-train.stop.r{error}" for error in (15, 10, 5)
+    ]
+
+
+def test_the_page_lays_a_record_over_its_simulation_under_the_answer(call, scenario):
+    path = scenario("stop", "rail: {condition: wet, friction: 0.1}\n")
+    call("run", path, "--record", "all", "--report", "csv", "--set", "rail.friction=0.11")
+    head = "schema: uictest/validation/1\nname: my-train\n"
+    stops = "stops: [{scenario: scenarios/stop.yaml, recordings: [reports/latest/recordings/stop.parquet]}]\n"
+    Path("my.validation.yaml").write_text(head + stops, "utf-8")
+    answer = call("validate", "my.validation.yaml", code=0)
+    said = answer.out.splitlines()[0]
+    assert said.startswith("simulated stops are ")
+    assert said.endswith(" longer than recorded: 1 stop shows no interval")
+    page = unescape((newest() / "index.html").read_text("utf-8"))
+    assert f"<h1>S{said[1:]}</h1>" in page
+    assert page.count('class="plots laid-over"') == 1
+    assert "A <code>recorded</code>" in page
+    for channel in ("speed", "slide_1", "tank_pressure_1"):
+        assert f'data-channel="{channel}"' in page
 
 
 def test_one_stop_claims_no_spread_and_json_is_the_document(validate):
@@ -163,8 +193,9 @@ def test_a_stop_that_is_not_counted_says_why_and_is_in_no_figure(
     says = f"{len(counted)} of {stops} recorded stops counted"
     answer = validate(*(f"recordings: [{each}" for each in entries), code=code, says=says)
     for stop, why in not_counted.items():
-        [line] = [each for each in answer.out.splitlines() if each.startswith(f"stop my-train.stop.{stop}: ")]
-        assert f"not counted: {why}" in line
+        said = " ".join(answer.out.split())
+        file = f"{stop.partition(' ')[0]}.csv"
+        assert f"not counted: my-train.stop.{stop} ({file}): {why}" in said
     document = json.loads((newest() / "validation.json").read_text("utf-8"))
     assert [stop["id"] for stop in document["stops"] if not stop["not_counted"] and not stop["tuned"]] == [
         f"my-train.stop.{name}" for name in counted
@@ -175,7 +206,7 @@ def test_a_stop_that_is_not_counted_says_why_and_is_in_no_figure(
 def test_a_simulation_that_fails_is_an_error_and_never_a_figure(validate, scenario):
     scenario("stop", "tags: [error]\n")
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]", code=3)
-    assert "not counted: simulation: ZeroDivisionError: no wheel load" in answer.out
+    assert "not counted: my-train.stop.a from 30 km/h (a.csv): simulation: ZeroDivisionError" in answer.out
     assert rows("figures.csv") == []
 
 
@@ -195,9 +226,9 @@ def test_cases_outside_of_what_was_validated_are_flagged(call, validated):
     changes = ("--set", "initial_speed=30 km/h,40 km/h", "--report", "html,md")
     count = "1 of 2 cases outside of what my-train validated"
     answer = call("run", "scenarios/stop.yaml", *changes, "--validated", validated, code=0, says=count)
-    flags = [line for line in answer.out.splitlines() if line.startswith("outside")]
+    flags = [line for line in answer.out.splitlines() if "]: outside" in line]
     why = "initial_speed 40 km/h > 31 km/h"
-    assert flags == [f"outside stop[initial_speed=40kmh] of what my-train validated: {why}"]
+    assert flags == [f"stop[initial_speed=40kmh]: outside of what my-train validated: {why}"]
     inside, outside = (case["domain_of_validity"] for case in results_of()["cases"])
     assert (inside["validation"], inside["outside"]) == ("my-train", [])
     assert [each["key"] for each in outside["outside"]] == ["initial_speed"]
@@ -264,7 +295,7 @@ def test_a_scenario_names_the_validation_that_its_cases_are_held_against(call, v
     answer = call("run", "scenarios", "--set", "initial_speed=40 km/h", code=0, says=says)
     asked = {case["id"]: "domain_of_validity" in case for case in results_of()["cases"]}
     assert asked == {"fast": True, "other": False, "stop": False}
-    assert "outside fast of what another-train validated: initial_speed 40 km/h > 31 km/h" in answer.out
+    assert "fast: outside of what another-train validated: initial_speed 40 km/h > 31 km/h" in answer.out
     manifest = manifest_of()
     assert "scenarios/train.json" in manifest["inputs"]
     call("run", "scenarios/fast.yaml", "--validated", validated)
@@ -316,7 +347,7 @@ def test_a_sweep_counts_and_names_the_cases_outside_also_of_the_validation_that_
 ):
     answer = call("sweep", study, "--validated", validated, "--report", "csv,html")
     assert answer.code in (0, 1)
-    assert f"note: {NOTE}" in answer.out
+    assert f"note: {NOTE}" in " ".join(answer.out.split())
     folder = Path("reports/study")
     with (folder / "summary.csv").open(encoding="utf-8") as file:
         outside = {row["id"]: set(row["outside"].split()) for row in csv.DictReader(file)}

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import yaml
 
+from ..conftest import results_of
+
 SPEEDS = np.maximum(80.0 - 3.6 * np.maximum(np.arange(1262) * 0.02 - 2.0, 0.0), 0.0)
 """km/h every 20 ms: 2 s at 80 km/h, then 1 m/s2 to standstill, 246.9 m."""
 SCENARIO = """schema: uictest/scenario/1
@@ -102,7 +104,8 @@ def test_the_map_that_is_written_reads_the_file(call, write_map, name):
     text, _ = write_map(*FILES[name])
     assert set(yaml.safe_load(text)["channels"]) >= {"speed", *(f"wheel_speed_{n}" for n in range(1, 5))}
     answer = call("evaluate", "a.txt", "--map", "lab.yaml", "--scenario", "scn.yaml", "--trigger", "2 s")
-    assert "braking_distance_m=246.91 " in answer.out, (answer.err, text)
+    distance = results_of()["cases"][0]["measures"]["braking_distance_m"]
+    assert distance == pytest.approx(246.91, abs=0.005), (answer.err, text)
 
 
 def test_what_is_guessed_what_is_open_and_other_lines_of_names_are_marked(write_map):

@@ -146,21 +146,22 @@ def test_a_column_of_rank_0_is_never_left_out_and_the_highest_rank_goes_first(wi
     table = Table(
         [replace(column, text=lambda _: "some text") for column in COLUMNS], rows, all_in="cells.csv"
     )
-    head, *_, last = table_lines(table, width)
+    head, *lines = table_lines(table, width)
     shown = {column.rank for column in COLUMNS if f" {column.heading.split(chr(10))[0]}" in f" {head}"}
     left_out = {column.rank for column in COLUMNS if column.heading} - shown
     assert 0 in shown
     assert not left_out or max(shown) < min(left_out)
-    assert last.startswith("not shown for lack of room: ") == bool(left_out)
-    assert left_out or max(map(len, (head, last))) <= width
+    assert ("not shown for" in " ".join(" ".join(lines).split())) == bool(left_out)
+    assert left_out or max(map(len, (head, *lines))) <= width
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
 def test_names_are_whole_in_any_width_and_figures_give_way(width):
     rows = [Row("dry-120", 465.2, 1, True), Row(LONG, 465.2, 1, True, "largest at 12.3 s")]
     lines = list(table_lines(Table(COLUMNS, rows, all_in="cells.csv"), width))
-    table = [line for line in lines if not line.startswith("not shown")]
-    assert max(map(len, table)) <= width
+    assert max(map(len, lines)) <= width
+    ends = [number for number, line in enumerate(lines) if line.startswith("not shown for lack of room: ")]
+    table = lines[: min(ends, default=len(lines))]
     of_case = table[0].index("verdict")
     name = "".join(line[:of_case].strip() for line in table[3:]).replace(" ", "")
     assert name == LONG.replace(" ", "")
@@ -169,8 +170,9 @@ def test_names_are_whole_in_any_width_and_figures_give_way(width):
 @pytest.mark.parametrize("grouped", [True, False])
 def test_columns_that_give_way_are_named_once_with_their_place(grouped):
     rows = [("first group", "a-name"), ("first group", "another"), ("second", "a-name")]
-    *lines, last = table_lines(grouped_table(rows, grouped=grouped), 14)
-    assert last == "not shown for lack of room: remark; x.csv has all"
+    lines = list(table_lines(grouped_table(rows, grouped=grouped), 14))
+    text = " ".join(" ".join(lines).split())
+    assert text.endswith("not shown for lack of room: remark; x.csv has all")
     # What rows share stands above them once.
     assert sum("second" in line for line in lines) == 1
     assert sum("first" in line for line in lines) == (1 if grouped else 2)

@@ -16,7 +16,8 @@ from uictest.judging.evaluation import (
 from uictest.plans.scenario import PASS
 from uictest.report.case_lines import turns_text
 from uictest.report.page.margins import margin_share, margins_of
-from uictest.report.page.marks import marks_of, taken_at
+from uictest.report.page.marks import marks_of
+from uictest.report.traces.instants import taken_at
 from uictest.report.traces.trace import PlotTrace, trace_of
 
 from ..builders import make_recording, make_verdict
@@ -70,7 +71,7 @@ ADHESION = {"unit": "g", "upper": 0.08, "value": 0.06}
         ("initial_adhesion", {}, ADHESION, []),
         # A lock lasts from the sample before it to its last, as the measure counts it.
         ("longest_lock", LOCKING, LOCK,
-         [("locked", "interval", 19.99, 21.99, 3.0, "it: 2 s, upper limit 1 s, above 10 km/h")]),
+         [("locked", "interval", 19.99, 21.99, 3.0, "it: 2 s (limit 1 s), above 10 km/h")]),
         # A stop that does not stop is marked at the end of the record.
         ("standstill", {}, {"status": "fail", "lower": 1.0, "value": 0.0, "unit": "1"},
          [("speed", "instant", 34.0, 34.0, None, "it: the record ends at 0 km/h")]),
@@ -168,7 +169,7 @@ def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no()
     )
     margins = _margins(*(make_verdict(id=str(index), **each) for index, each in enumerate(changes)))
     assert [(each.verdict.id, each.share_text) for each in margins.judged] == [
-        *(("4", "-300 %"), ("3", "-10 %"), ("5", ""), ("2", "+5 %"), ("0", "+50 %"), ("1", "met"))
+        *(("4", "4 × limit"), ("3", "-10 %"), ("5", ""), ("2", "+5 %"), ("0", "+50 %"), ("1", "met"))  # noqa: RUF001
     ]
     assert [each.verdict.id for each in margins.not_applicable] == ["6"]
 
@@ -190,9 +191,9 @@ def test_the_margin_of_a_limit_of_zero_is_no_share():
 @pytest.mark.parametrize(
     ("margin", "status", "spare", "words"),
     [
-        (4.0, "pass", "turns", "would fail if d were 0.6 s instead of 0.2 s"),
-        (-4.0, "fail", "-40 %", "would pass if d were 0.5 s instead of 0.7 s"),
-        (0.0, "pass", "turns", "would fail if d were 0.6 s instead of 0.2 s"),
+        (4.0, "pass", "turns", "fails if d were 0.6 s instead of 0.2 s"),
+        (-4.0, "fail", "-40 %", "passes if d were 0.5 s instead of 0.7 s"),
+        (0.0, "pass", "turns", "fails if d were 0.6 s instead of 0.2 s"),
     ],
 )
 def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(margin, status, spare, words):

@@ -177,7 +177,7 @@ def axis(key, *texts):
 
 def lines_of(rows, columns, means, cases=1):
     counts = np.full((len(rows.groups), len(columns.groups)), cases)
-    cells = MapCells(rows, columns, counts, counts, {}, {"distance": np.array(means)})
+    cells = MapCells(rows, columns, counts, counts, counts, {}, {"distance": np.array(means)})
     return cell_lines(cells, {"distance": "m"}, ())
 
 

@@ -21,8 +21,9 @@ def _points(drawn):
     """Walk along path data of M and l."""
     points = []
     for command, text in re.findall(r"([Ml])([-\d ]+)", drawn):
-        x, y = (int(word) for word in text.split())
-        points.append((x, y) if command == "M" else (points[-1][0] + x, points[-1][1] + y))
+        numbers = [int(number) for number in re.findall(r"-?\d+", text)]
+        for x, y in zip(numbers[::2], numbers[1::2], strict=True):
+            points.append((x, y) if command == "M" else (points[-1][0] + x, points[-1][1] + y))
     return points
 
 
@@ -60,8 +61,20 @@ def test_a_vent_however_short_is_a_pixel_wide_and_a_long_one_as_wide_as_it_laste
     drawing = drawing_of(trace_of(Recording(channels, {"time": "s", "speed": "m/s", "valve_command_2": "1"})))
     ((_, hold), (_, vent)) = next(panel.paths for panel in drawing.panels if panel.key == "valves")
     for bars in (hold, vent):
-        widths = [float(width) for width in re.findall(r"h([\d.]+)V", bars)]
-        assert widths == pytest.approx([1.0, 10.0 * (RIGHT - LEFT) / time[-1]], rel=1e-3)
+        widths = [float(width) for width in re.findall(r"h([\d.]+)", bars)]
+        assert widths == pytest.approx([1.0, 10.0 * (RIGHT - LEFT) / time[-1]], abs=0.1)
+
+
+def test_the_valves_are_shown_where_they_never_moved_since_that_is_why_a_stop_failed():
+    time = np.arange(0.0, 10.0, 0.01)
+    channels = {"time": time, "speed": 20.0 - 2.0 * time, "valve_command_1": np.zeros(len(time))}
+    drawing = drawing_of(trace_of(Recording(channels, {"time": "s", "speed": "m/s", "valve_command_1": "1"})))
+    (valves,) = (panel for panel in drawing.panels if panel.key == "valves")
+    assert valves.title.endswith("no command in this stop")
+    assert not valves.paths
+    without = {name: channels[name] for name in ("time", "speed")}
+    drawing = drawing_of(trace_of(Recording(without, {"time": "s", "speed": "m/s"})))
+    assert [panel.key for panel in drawing.panels] == ["speed"]
 
 
 def _unpacked(content):

@@ -20,7 +20,8 @@ def cells(met, cases, outcomes=None, **means):
     known = {name: np.array(counts) for name, counts in (outcomes or {}).items()}
     rows, columns = cases.shape
     figures = {name: np.array(each, float) for name, each in means.items()}
-    return MapCells(axis("a", rows), axis("b", columns), cases, met, known, figures)
+    valid = sum((known.get(name, 0 * cases) for name in ("pass", "fail")), 0 * cases) if known else cases
+    return MapCells(axis("a", rows), axis("b", columns), cases, met, valid, known, figures)
 
 
 def maps_of(found, stops=None, varied=("a", "b"), units=None):
@@ -73,7 +74,10 @@ def test_a_cell_of_one_case_says_its_outcome_and_others_their_share():
         "0 of 3 met, 3 error",
         "2 of 2 met",
     ]
-    assert [cell.kind for cell in several.rows[0][1]] == ["mixed", "none-met", "all-met turns-left"]
+    assert [cell.kind for cell in several.rows[0][1]] == ["mixed", "no-test", "all-met turns-left"]
+    outcomes = {"fail": [[2, 0, 1]], "invalid": [[0, 2, 1]], "pass": [[0, 0, 1]]}
+    (apart,) = maps_of(cells([[0, 0, 1]], [[2, 2, 3]], outcomes)).maps
+    assert [cell.kind for cell in apart.rows[0][1]] == ["none-met", "no-test", "mixed"]
 
 
 def test_a_cell_without_a_case_and_one_without_the_measure_have_no_colour():
@@ -88,9 +92,8 @@ def test_a_cell_without_a_case_and_one_without_the_measure_have_no_colour():
 
 def test_what_a_cell_stands_for_is_stated():
     folded = CellAxis("a", [(WrittenValue("1"), WrittenValue("2")), (WrittenValue("3"),)])
-    found = MapCells(
-        folded, axis("b", 2), np.full((2, 2), 4), np.full((2, 2), 4), {}, {"distance": np.ones((2, 2))}
-    )
+    fours = np.full((2, 2), 4)
+    found = MapCells(folded, axis("b", 2), fours, fours, fours, {}, {"distance": np.ones((2, 2))})
     shown = maps_of(found, varied=("a", "b", "c", "d"), units={"distance": "m"})
     assert shown.name == "a (down) against b (across)"
     assert shown.notes == [

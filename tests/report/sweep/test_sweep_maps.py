@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report import MapAxis, SweepMap, WrittenValue, map_lines
+from uictest.report import MapAxis, SweepMap, WrittenValue
 from uictest.report.sweep.cases import SummaryRows, reported_columns
 from uictest.report.sweep.sweep_maps import (
     MOST_SHOWN,
@@ -18,6 +18,7 @@ from uictest.report.sweep.sweep_maps import (
     folded,
     is_large,
     map_cells,
+    map_lines,
     mapped_pairs,
     short_label,
 )
@@ -207,14 +208,18 @@ def test_each_column_is_headed_by_exactly_the_values_it_shows(columns, width):
 
 @pytest.mark.parametrize("width", [40, 60, 80, 120])
 def test_a_map_keeps_to_the_width_of_the_terminal_and_only_what_is_whole_is_shown_as_whole(width):
-    _, remark, *table = map_lines(made_up_map(31, 31), width)
-    assert max(map(len, table)) <= width
-    assert "31 values of rail.friction in 16 rows" in remark
-    assert "tables/map-braking_distance_m.csv has every value" in remark
+    lines = list(map_lines(made_up_map(31, 31), width))
+    assert max(map(len, lines)) <= width
+    said = " ".join(" ".join(lines).split())
+    assert "31 values of rail.friction in 16 rows" in said
+    assert "tables/map-braking_distance_m.csv has every value" in said
     small = list(map_lines(made_up_map(3, 3), width))
-    assert len(small) == 1 + 1 + 3
     assert "folded" not in "".join(small)
     shares = [[0.0, 0.001, 0.5, 0.999, 1.0, None]]
     what, _, line = map_lines(replace(made_up_map(1, 6, "met"), means=shares), None)
-    assert what == "share met (# none, 1-9 tenths, . all): rail.friction down, brake.command across"
+    marks = ". all, 1-9 tenths, # none, ? no valid test"
+    assert what == f"share met ({marks}): rail.friction down, brake.command across"
     assert line.split()[1:] == ["#", "1", "5", "9", "."]
+    none_valid = replace(made_up_map(1, 6, "met"), means=shares, valid=[[0, 9, 9, 9, 9, 0]])
+    *_, line = map_lines(none_valid, None)
+    assert line.split()[1:] == ["?", "1", "5", "9", "."]

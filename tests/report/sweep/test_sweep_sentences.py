@@ -6,27 +6,28 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from uictest.judging.evaluation import Deviation
+from uictest.judging.evaluation import Deviation, Sensitivity, VerdictInterval
+from uictest.plans.scenario import expectation_of
 from uictest.report import DrawnInterval, Flip, OutcomeCount, SweptValue, WrittenValue
 from uictest.report.sweep.result import OutsideCount, SurveyBias, SurveyStep, SweepDomain
 from uictest.report.sweep.sweep_sentences import (
-    MOST_ANNOTATED,
     bar,
     circumstances_words,
     command_alone,
     domain_notes,
     flip_words,
-    notable_cases,
+    missed_blocks,
     share_words,
     survey_notes,
     sweep_annotations,
     sweep_suite,
     sweep_tally,
     swept_words,
+    where_met,
 )
 from uictest.report.sweep.values import interval_indices, range_label
 
-from ..builders import HOSTILE, make_result
+from ..builders import HOSTILE, make_result, make_verdict
 from ..sweep_rows import sweep_result
 
 ADAPTER = TypeAdapter(SweptValue)
@@ -158,20 +159,6 @@ def test_one_case_alone_runs_as_in_the_sweep_in_a_folder_of_its_own():
     assert given == {"--set": "brake.command=80 %", "--seed": "3", "-k": "CASE", "-o": "alone/CASE"}
 
 
-def test_each_notable_case_stands_once_and_those_not_met_in_front(make_sweep):
-    missed = [{"id": name, "outcome": "error", "reason": "no air"} for name in ("a", "b")]
-    worst = (make_result(id="narrow"), make_result(id="a", outcome="error", criteria=(), reason="no air"))
-    cases = notable_cases(make_sweep(worst, missed=missed).result)
-    assert [(case.id, case.label, case.reason, case.distance) for case in cases] == [
-        ("a", "error", "error. Expected: pass; no air", 465.25),
-        ("b", "error", "got error: no air", None),
-        ("narrow", "pass", "", 465.25),
-    ]
-    assert (cases[2].margin, cases[2].criterion) == (pytest.approx(100 * 24.75 / 490), "braking-distance")
-    (case,) = notable_cases(make_sweep(missed=[{"id": "a", "outcome": "skipped", "reason": ""}]).result)
-    assert case.reason == "got skipped"
-
-
 NONE = dict.fromkeys(("pass", "fail", "invalid", "inconclusive", "error", "skipped"), 0)
 
 
@@ -206,26 +193,75 @@ def test_testcases_have_the_ids_of_test_management_where_asked(make_sweep):
 
 
 def annotations(content):
-    return list(sweep_annotations(content.result, content.manifest["file"]))
+    return list(sweep_annotations(content.result, content.manifest))
 
 
-def test_cases_that_are_not_met_are_annotated_and_the_sweep_is_counted(make_sweep):
+def test_what_is_missed_is_annotated_once_for_each_outcome_and_the_sweep_is_counted(make_sweep):
     missed = make_result(id="b[x]", outcome="fail", criteria=(), reason="locked")
-    tally = "4 cases: 3 pass, 1 fail; 1 not as expected"
-    assert annotations(make_sweep((missed, make_result()), "pads")) == [
-        "::error file=scenarios/pads.sweep.yaml,title=fail b[x]::fail. Expected: pass; locked",
-        "::error file=scenarios/pads.sweep.yaml,title=invalid lost[pads]::got invalid: pads",
-        f"::notice file=scenarios/pads.sweep.yaml,title=uictest sweep pads::{tally}",
-    ]
-    many = annotations(make_sweep(tuple(make_result(id=f"case-{k}", outcome="fail") for k in range(12))))
-    assert sum(line.startswith("::error ") for line in many) == MOST_ANNOTATED
-    assert "title=fail case-0::" in many[0]
+    outcomes = NONE | {"pass": 1, "fail": 2, "invalid": 1}
+    content = make_sweep((missed, make_result()), "pads", outcomes=outcomes, met=1)
+    command = "uictest sweep scenarios/pads.sweep.yaml --set pads -k '{0}' -o 'alone/{0}'"
+    first, second, tally = annotations(content)
+    assert first.startswith("::error file=scenarios/pads.sweep.yaml,title=2 cases miss requirements")
+    assert first.endswith(f"::worst b[x]: locked; {command.format('b[x]')}")
+    assert second.startswith("::error file=scenarios/pads.sweep.yaml,title=1 case is not a valid test")
+    assert second.endswith(f"::first lost[pads]: pads; {command.format('lost[pads]')}")
+    counts = "4 cases: 1 pass, 2 fail, 1 invalid; 3 not as expected"
+    assert tally == f"::notice file=scenarios/pads.sweep.yaml,title=uictest sweep pads::{counts}"
     # A hostile name cannot start a command of its own.
     bad = make_result(id=HOSTILE, parameters={HOSTILE: HOSTILE}, outcome="error", reason=HOSTILE)
-    for line in annotations(make_sweep((bad,), HOSTILE)):
+    for line in annotations(make_sweep((bad,), HOSTILE, outcomes=NONE | {"error": 4}, met=0)):
         assert line.startswith(("::error file=", "::notice file="))
         assert not set("\n\r\x00\x1b\u202e") & set(line)
         assert line.split("::")[1].count(",") == 1
+
+
+@pytest.mark.parametrize(
+    ("expect", "outcomes", "met", "headings"),
+    [
+        ("pass", {"pass": 4}, 4, []),
+        (
+            "pass",
+            {"pass": 1, "fail": 2, "error": 1},
+            1,
+            ["1 case could not be run", "2 cases miss requirements"],
+        ),
+        ("fail", {"fail": 3, "pass": 1}, 3, ["1 case should not have passed"]),
+        ("pass", {"pass": 4}, 2, ["2 cases have verdicts that are not settled"]),
+        ("fail", {"fail": 4}, 3, ["1 case meets an expectation that --strict refuses"]),
+        ("fail", {"fail": 3, "inconclusive": 1}, 2, ["1 case misses requirements", "1 case lacks data"]),
+    ],
+)
+def test_what_is_expected_is_not_missed(make_sweep, expect, outcomes, met, headings):
+    turns = Sensitivity("a", "m", 0.0, 1.0, (VerdictInterval(0, 0, "pass"), VerdictInterval(1, 1, "fail")))
+    unsettled = make_verdict(sensitivity=(turns,))
+    open_cases = {"pass": unsettled, "fail": make_verdict(status="fail", layer="requirement")}
+    common = {"id": "a", "expect": expectation_of(expect), "strict": len(outcomes) == 1}
+    worst = tuple(make_result(**common, outcome=name, criteria=(each,)) for name, each in open_cases.items())
+    content = make_sweep(worst, outcomes=NONE | outcomes, met=met, missed=[], rates={"x": []})
+    blocks = [block for block, _ in missed_blocks(content.result, {})]
+    assert len(blocks) == len(headings)
+    assert all(block.heading.startswith(heading) for block, heading in zip(blocks, headings, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("met", "said"),
+    [
+        ((2, 2, 2), "6 of 6 cases as expected"),
+        ((0, 0, 0), "0 of 6 cases as expected"),
+        ((2, 1, 0), "3 of 6 cases as expected, by x: all at 0; in part at 1; none at 2"),
+        ((1, 1, 1), "3 of 6 cases as expected; no value of x decides alone"),
+        ((2, 0, 2), "4 of 6 cases as expected, by x: all at 0, 2; none at 1"),
+        ((2, 0, None), "2 of 4 cases as expected, by x: all at 0; none at 1"),
+    ],
+)
+def test_where_a_sweep_holds_is_said_by_the_parameter_that_decides(make_sweep, met, said):
+    cases = [0 if each is None else 2 for each in met]
+    counts = [
+        {"value": str(k), "cases": cases[k], "met": each or 0, "outcomes": {}} for k, each in enumerate(met)
+    ]
+    content = make_sweep(cases=sum(cases), met=sum(filter(None, met)), rates={"x": counts})
+    assert where_met(content.result) == said
 
 
 SPEED = OutsideCount(3, Deviation("initial_speed", (30.0, 40.0), (10.0, 20.0), "m/s"))

@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 from markdown_it import MarkdownIt
 
-from uictest.core.document import Lines
+from uictest.core.document import Lines, Table
 from uictest.report import publication_of_sweep, publish, write_recording
 from uictest.report.sweep.result import read_sweep, sweep_document
 from uictest.report.sweep.sweep_tables import (
@@ -76,9 +76,10 @@ def test_rates_have_the_share_met_at_each_value(make_sweep):
     whole, none = rates_table(make_sweep(rates={"rail.friction": counts}).result).records
     assert (whole["share_met"], whole["pass"], none["share_met"], none["pass"]) == (0.75, 3, None, None)
     assert second["share_met"] == 0.5
+    assert shown(table)[-1] == [" ", "██████████", "█████░░░░░"]
     assert shown(table)[:6] == [
         *(["parameter", "brake.90 %", ""], ["value", "80 %", "90 %"], ["cases", "2", "2"]),
-        *(["met", "2", "1"], ["met\n%", "100", "50"], [" ", "██████████", "█████░░░░░"]),
+        *(["met", "2", "1"], ["met\n%", "100", "50"], ["fail", "-", "1"]),
     ]
 
 
@@ -103,11 +104,19 @@ def test_maps_trends_sensitivities_and_the_frontier_are_tables(make_sweep):
 
 def test_the_summary_has_every_finding_what_decides_first(make_sweep):
     worst = (make_result(id="b[x]", outcome="fail", criteria=(), reason="locked"), make_result())
-    document = sweep_summary(make_sweep(worst).result)
+    document = sweep_summary(make_sweep(worst).result, {"file": "study.sweep.yaml"})
+    where, missed, *_ = document.sections
+    assert where.sentences == ["3 of 4 cases as expected, by brake.90 %: all at 80 %; in part at 90 %"]
+    [block] = missed.blocks
+    assert (block.heading, block.lines) == (
+        "1 case misses requirements: brake.90 % 90 %",
+        ["worst b[x]: locked"],
+    )
+    assert block.command == "uictest sweep study.sweep.yaml -k 'b[x]' -o 'alone/b[x]'"
     assert document.title == "uictest sweep: 4 cases: 3 pass, 1 fail; 1 not as expected"
     sections = {section.title: section for section in document.sections if section.title}
     assert list(sections) == [
-        *("90 %", "Share of cases met, %", "Cases most worth looking at"),
+        *("90 %", "Share of cases met, %"),
         *("Cases met by value of each parameter", "Share of the variance that each parameter explains"),
         *("Frontier along 90 %", "Measures", "Notes"),
     ]
@@ -117,18 +126,16 @@ def test_the_summary_has_every_finding_what_decides_first(make_sweep):
     ]
     numbers = [column.is_number for column in sections["Share of cases met, %"].columns]
     assert numbers == [False, True, True]
-    notable = [texts[1] for texts in shown(sections["Cases most worth looking at"])]
-    assert notable == ["fail", "b[x]", "fail", "465.2", "-", "", "fail. Expected: pass; locked"]
 
 
 def test_what_a_sweep_does_not_have_is_no_section_and_many_values_are_referred_to(make_sweep):
     counts = [{"value": str(k), "cases": 1, "met": 1, "outcomes": {}} for k in range(31)]
     nothing = {"maps": [], "missed": [], "sensitivities": [], "measures": [], "notes": []}
     content = make_sweep(frontier=None, **nothing, rates={"rail.friction": counts})
-    sections = sweep_summary(content.result).sections
-    full = [section for section in sections if (section[0] if isinstance(section, Lines) else section.rows)]
-    assert [section.title for section in full] == ["90 %", ""]
-    assert full[1].sentences == ["rail.friction: 31 values, see tables/rates.csv"]
+    tables = [section for section in sweep_summary(content.result, {}).sections if isinstance(section, Table)]
+    assert [table.title for table in tables if table.rows] == ["90 %"]
+    lines = [section for section in sweep_summary(content.result, {}).sections if isinstance(section, Lines)]
+    assert lines[1].sentences == ["rail.friction: 31 values, see tables/rates.csv"]
 
 
 def test_of_a_long_frontier_flips_are_shown_first_and_the_rest_is_counted(make_sweep):
@@ -147,7 +154,11 @@ def test_a_large_map_is_shown_small(make_sweep):
     values, ones = [str(k) for k in range(1000)], [[1] * 1000] * 1000
     axes = {axis: {"parameter": axis, "values": values} for axis in ("rows", "columns")}
     found = {"measure": "met", **axes, "means": ones, "met": [[0] * 1000, *ones[1:]], "cases": ones}
-    _, table, *_ = sweep_summary(make_sweep(maps=[found]).result).sections
+    [table] = [
+        each
+        for each in sweep_summary(make_sweep(maps=[found]).result, {}).sections
+        if "Share of cases met" in each.title
+    ]
     assert table.basis == "Neighbouring values are shown together; tables/map-met.csv has each of them."
     (_, *labels), (heading, *shares), *_ = shown(table)
     assert (labels[0], heading, shares[0], shares[1]) == ("0 … 41", "0 … 41", "98", "100")

@@ -9,7 +9,8 @@ from uictest.core.recording import Recording
 from uictest.core.units import in_unit
 from uictest.judging.evaluation import AppliedDefinition
 from uictest.plans.scenario import load
-from uictest.report.page.marks import marks_of, taken_at
+from uictest.report.page.marks import marks_of
+from uictest.report.traces.instants import taken_at
 from uictest.report.traces.moments import TRAIN, Moments, duration, moments_of
 from uictest.report.traces.quantities import PANELS, STRIPS
 from uictest.report.traces.trace import trace_of

@@ -14,13 +14,17 @@ from typing import Any
 from uictest import report
 from uictest.analysis.comparison.parameters import parameter_changes, parameter_lines
 from uictest.analysis.comparison.runs import (
-    case_differences,
-    compare_accepted_series,
+    MISSING,
+    SHARE_PASSED,
+    judged_quantities,
+    quantities_of_runs,
     run_notes,
     stops_of_series,
 )
 from uictest.analysis.comparison.tolerance import Scope, Tolerances
+from uictest.core.measures import without_wheelset
 from uictest.judging import evaluation
+from uictest.judging.series import SeriesResult
 from uictest.report import BaselineComparison, Difference, without_machine
 
 
@@ -38,16 +42,25 @@ class Baseline:
 
     def compare(self, run: report.RunContent) -> BaselineComparison:
         """Compare every case and series of a run, and list those of the baseline that were not compared."""
-        quantities = {result.id: list(self._compared_quantities(result)) for result in run.results}
-        missing, other_ids = self._not_compared(quantities)
-        of_series = compare_accepted_series(self.run.series, run.series, self.scope, self.tolerances)
-        compared = [*quantities.values(), *of_series.quantities.values()]
+        of_both = quantities_of_runs(self.run, run, self.tolerances)
+        files = {case.id: case.scenario for case in (*self.run.results, *run.results)}
+        series = {one.id: one.file for one in (*self.run.series, *run.series)}
+        file_of = files | series
+        of_run = [*(case.id for case in run.results), *(one.id for one in run.series)]
+        accepted_alone = [own_id for own_id in of_both if own_id not in of_run]
+        missing = [own_id for own_id in accepted_alone if self.scope.misses(own_id, file_of[own_id])]
+        left_out = [own_id for own_id in accepted_alone if own_id not in missing]
+        quantities = {own_id: of_both[own_id] for own_id in (*of_run, *missing)}
         beyond = {
-            own_id: _out_of_tolerance(each)
-            for side in (quantities, of_series.quantities)
-            for own_id, each in side.items()
+            own_id: self._out_of_tolerance(of_one, file_of[own_id]) for own_id, of_one in quantities.items()
         }
-        beyond |= {case_id: [_missing_case(self.results[case_id])] for case_id in missing}
+        judged = self._judged(run.results, run.series)
+        decides = {
+            own_id: self._deciding(differences, judged.get(own_id, set()))
+            for own_id, differences in beyond.items()
+        }
+        out = [(own_id, difference) for own_id, differences in beyond.items() for difference in differences]
+        informing = [difference for own_id, difference in out if difference not in decides[own_id]]
         # As if the accepted run had read nothing that this one did not select.
         manifest, read = self.run.manifest, run.manifest.inputs
         inputs = {name: digest for name, digest in manifest.inputs.items() if name in read}
@@ -55,42 +68,74 @@ class Baseline:
         return BaselineComparison(
             without_machine(self.folder),
             self.sha256,
-            compared=sum(map(len, compared)) + len(missing),
-            within=sum(each.within for of_one in compared for each in of_one if each),
-            differences={own_id: each for own_id, each in beyond.items() if each},
-            missing=missing,
-            series={own_id: file for own_id, file in of_series.files.items() if beyond[own_id]},
-            not_run=[case_id for case_id in other_ids if case_id in self.scope.selected],
-            not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
-            series_not_compared=of_series.not_compared,
+            compared=sum(map(len, quantities.values())),
+            within=sum(each.within for of_one in quantities.values() for each in of_one if each),
+            differences={own_id: each for own_id, each in decides.items() if each},
+            missing={own_id: files[own_id] for own_id in missing if own_id in files},
+            series={own_id: file for own_id, file in series.items() if decides.get(own_id)},
+            not_run=[each for each in left_out if each in files and each in self.scope.selected],
+            not_selected=[each for each in left_out if each in files and each not in self.scope.selected],
+            series_not_compared=[each for each in left_out if each in series],
             notes=[*self._parameters_changed(run), *run_notes(limited, run)],
             values={
                 result.id: _comparable_values(self.results[result.id], result)
                 for result in run.results
                 if result.id in self.results
             },
+            informing=informing,
         )
 
     def differences(self, result: evaluation.CaseResult) -> list[Difference]:
-        """Return the quantities of a case that are out of tolerance."""
-        return _out_of_tolerance(self._compared_quantities(result))
+        """Return the outcome, verdicts and judged measures of a case that are out of tolerance."""
+        accepted = [self.results[result.id]] if result.id in self.results else []
+        before, now = (report.RunContent("", results) for results in (accepted, [result]))
+        quantities = quantities_of_runs(before, now, self.tolerances)[result.id]
+        beyond = self._out_of_tolerance(quantities, result.scenario)
+        return self._deciding(beyond, self._judged([result], ())[result.id])
 
-    def _not_compared(self, compared: Container[str]) -> tuple[dict[str, str], list[str]]:
-        """Return the cases that the scenario files no longer have (id -> file), and the ids of the others."""
-        results = [result for result in self.run.results if result.id not in compared]
-        missing = {
-            result.id: result.scenario for result in results if self.scope.misses(result.id, result.scenario)
-        }
-        return missing, [result.id for result in results if result.id not in missing]
+    @staticmethod
+    def _out_of_tolerance(quantities: Iterable[Difference | None], file: str) -> list[Difference]:
+        """Return the differences out of tolerance; None stands for a quantity that is the same.
 
-    def _compared_quantities(self, result: evaluation.CaseResult) -> Iterator[Difference | None]:
-        """Yield one item per quantity compared: None where both sides are the same."""
-        accepted = self.results.get(result.id)
-        if accepted is None:
-            remark = "the baseline has no such case; --accept adds it"
-            yield Difference(result.id, "case", "missing", result.outcome, within=False, remark=remark)
-        else:
-            yield from case_differences(accepted, result, self.tolerances)
+        Of a case or series that one side lacks the remark says what `--accept` does.
+        """
+        beyond = []
+        for difference in quantities:
+            if difference is None or difference.within:
+                continue
+            kind, remark = difference.quantity, difference.remark
+            if difference.first == MISSING:
+                remark = f"the baseline has no such {kind}; --accept adds it"
+            elif difference.second == MISSING:
+                remark = f"{file} no longer has this {kind}; --accept drops it"
+            beyond.append(dataclasses.replace(difference, remark=remark))
+        return beyond
+
+    def _judged(
+        self, cases: Iterable[evaluation.CaseResult], series: Iterable[SeriesResult]
+    ) -> dict[str, set[str]]:
+        """Return the quantities that criteria judge, now or when they were accepted: id -> names."""
+        verdicts: dict[str, list[evaluation.Verdict]] = {}
+        for case in cases:
+            accepted = self.results.get(case.id, case)
+            verdicts[case.id] = [*accepted.criteria, *case.criteria]
+        for one in series:
+            verdicts[one.id] = [each.verdict for each in one.criteria]
+        return {own_id: judged_quantities(of_one) for own_id, of_one in verdicts.items()}
+
+    def _deciding(self, differences: Iterable[Difference], judged: set[str]) -> list[Difference]:
+        """Return the differences of an outcome or a verdict, and of measures that are judged.
+
+        A tolerance that names a quantity makes it decide, too.
+        """
+
+        def decides(difference: Difference) -> bool:
+            name = difference.quantity
+            measure, _ = without_wheelset(name.partition(" from ")[0])
+            is_judged = name == SHARE_PASSED or name in judged or measure in judged
+            return is_judged or isinstance(difference.first, str) or self.tolerances.names(name)
+
+        return list(filter(decides, differences))
 
     def _parameters_changed(self, run: report.RunContent) -> Iterator[str]:
         """Yield the parameters that have changed since the cases were accepted."""
@@ -120,11 +165,6 @@ def _linked_run(folder: Path) -> Path:
     return run if run.is_dir() else folder
 
 
-def _out_of_tolerance(quantities: Iterable[Difference | None]) -> list[Difference]:
-    """Return the differences out of tolerance; None stands for a quantity that is the same."""
-    return [quantity for quantity in quantities if quantity and not quantity.within]
-
-
 def _comparable_values(accepted: evaluation.CaseResult, result: evaluation.CaseResult) -> dict[str, float]:
     """Return the accepted values of the criteria of a case that count in the same unit now."""
     units = {verdict.id: verdict.unit for verdict in result.criteria}
@@ -135,11 +175,6 @@ def _comparable_values(accepted: evaluation.CaseResult, result: evaluation.CaseR
         and math.isfinite(verdict.value)
         and units.get(verdict.id) == verdict.unit
     }
-
-
-def _missing_case(accepted: evaluation.CaseResult) -> Difference:
-    remark = f"{accepted.scenario} no longer has this case; --accept drops it"
-    return Difference(accepted.id, "case", accepted.outcome, "missing", within=False, remark=remark)
 
 
 _TABLES = ("subjects", "parts")

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, Literal, NamedTuple
 
-from uictest.core import envelope
-from uictest.core.measures import column_unit
+from uictest.analysis.comparison.tolerance import Tolerances
+from uictest.core.measures import column_unit, measure_of_column
 from uictest.core.series_measures import Estimate, mean_of, median_of
 from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, RepeatedStop, json_form
 from uictest.judging.series import SeriesResult, SpeedResult
 from uictest.plans.scenario.yaml import nearest
-from uictest.report import RunContent
+from uictest.report import RunContent, measure_heading
 
 LARGEST: Final = "largest_"
 """Before the name of a column of wheelsets: its largest value of the four."""
@@ -98,6 +97,13 @@ FEWEST_PAIRS: Final = 2
 Stops = Mapping[Draw, Figures]
 
 
+Standing = Literal["better", "worse", "different", "no difference shown", "not comparable"]
+"""How the second side stands against the first; `different` by a measure of which neither way is better."""
+
+SINGLE_STOP: Final = 0.01
+"""Share by which numbers of single stops must differ, chosen: stops under other seeds scatter by less."""
+
+
 @dataclass(frozen=True, slots=True)
 class PairedDifference:
     """By how much a quantity of the second variant exceeds that of the first, over pairs of stops.
@@ -106,7 +112,7 @@ class PairedDifference:
         quantity: a column of stops, or `largest_` and a column of wheelsets.
         unit: unit of all numbers.
         first, second: medians of both sides over the pairs.
-        mean: mean of the differences, with its interval by Student's t.
+        mean: mean of the differences, with its interval by Student's t; a single pair has none.
         median: median of the differences, with its interval by order statistics.
         larger, smaller: pairs in which the second is larger, or smaller.
         missing: pairs left out because one stop has no such number.
@@ -133,6 +139,32 @@ class PairedDifference:
         """Whether both sides are the same in every pair."""
         return self.larger == self.smaller == 0
 
+    @property
+    def title(self) -> str:
+        """The quantity in words."""
+        column = self.quantity.removeprefix(LARGEST)
+        heading = measure_heading(column).words
+        return f"{heading}, largest of wheelsets" if column != self.quantity else heading
+
+    def standing(self, tolerances: Tolerances) -> Standing:
+        """Return how the second side stands by the direction of the measure.
+
+        A difference is shown where it exceeds its tolerance and its interval leaves out 0; of single stops,
+        where it exceeds `SINGLE_STOP`, too.
+        """
+        column, difference = self.quantity.removeprefix(LARGEST), self.mean
+        measure = measure_of_column(column, of_wheelsets=column != self.quantity)
+        extent = max(abs(self.first), abs(self.second))
+        allowed = tolerances.of(column).allowed(extent)
+        if self.pairs < FEWEST_PAIRS:
+            allowed = max(allowed, SINGLE_STOP * extent)
+        is_shown = abs(difference.value) > allowed and not difference.low <= 0.0 <= difference.high
+        if not is_shown:
+            return "no difference shown"
+        if measure is None or measure.better == "neither":
+            return "different"
+        return "better" if (measure.better == "larger") == (difference.value > 0.0) else "worse"
+
 
 @dataclass(frozen=True, slots=True)
 class PairedGroup:
@@ -152,7 +184,13 @@ class PairedGroup:
 
 
 def paired_group(name: str, first: Stops, second: Stops) -> PairedGroup:
-    """Return the differences of all stops that pair. Raises ValueError, with the reason, where too few do."""
+    """Return the differences of all stops that pair. Raises ValueError, with the reason, where too few do.
+
+    Two stops that are all there is are compared whatever noise they met.
+    """
+    if len(first) == len(second) == 1:
+        (one,), (other,) = first.values(), second.values()
+        return PairedGroup(name, (), 1, 1, (0, 0), tuple(_paired_differences([(one, other)])))
     common = [draw for draw in first if draw in second and draw.noise_key and draw.seed is not None]
     if len(common) < FEWEST_PAIRS:
         raise ValueError(_why_too_few(first, second, len(common)))
@@ -171,7 +209,7 @@ def _paired_differences(pairs: Sequence[tuple[Figures, Figures]]) -> Iterator[Pa
     for quantity in pairs[0][0]:
         values = [(first[quantity], second.get(quantity, math.nan)) for first, second in pairs]
         finite_pairs = [pair for pair in values if all(map(math.isfinite, pair))]
-        if len(finite_pairs) >= FEWEST_PAIRS:
+        if len(finite_pairs) >= min(FEWEST_PAIRS, len(pairs)):
             yield _paired_difference(quantity, finite_pairs, len(values) - len(finite_pairs))
 
 
@@ -218,15 +256,6 @@ def _seeds_text(stops: Stops) -> str:
     return evaluation.seeds_text(sorted(seeds)) if seeds else "no known seed"
 
 
-@dataclass(frozen=True, slots=True)
-class Side:
-    """One side of a comparison: a run, or one variant in it."""
-
-    name: str
-    cases: Sequence[CaseResult]
-    series: Sequence[SeriesResult] = ()
-
-
 class GroupKey(NamedTuple):
     """What the stops of one group have in common; `speed_kmh` is None for cases, `rail` as in a series."""
 
@@ -238,28 +267,39 @@ class GroupKey(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """The stops of a group; `name` is for readers."""
+    """The stops of a group; `name` is for readers.
+
+    `cases` are those that the stops are of, by their seed where a matrix varies it; `series` is their series.
+    `example` is one of the cases with the parameters alone that the whole group has.
+    """
 
     name: str
     stops: dict[Draw, Figures] = field(default_factory=dict)
+    cases: dict[str, CaseResult] = field(default_factory=dict)
+    series: SeriesResult | None = None
+    example: CaseResult | None = None
 
 
-def groups_of(side: Side, varied: Collection[str]) -> dict[GroupKey, Group]:
+def groups_of(side: RunContent, varied: Collection[str]) -> dict[GroupKey, Group]:
     """Return the groups of a side; `varied` are the keys in which the variants differ.
 
     Cases that differ in nothing but these and their seed are one group, and so are the wet stops of a series
     from one speed that count.
     """
     groups: dict[GroupKey, Group] = {}
-    for case in side.cases:
+    for case in side.results:
         key = _group_key(case, {*varied, "seed"})
-        groups.setdefault(key, Group(_group_name(case, key))).stops.update(drawn_stops(case))
+        shared = {name: value for name, value in case.parameters.items() if (name, value) in key.parameters}
+        example = dataclasses.replace(case, parameters=shared)
+        group = groups.setdefault(key, Group(_group_name(case, key), example=example))
+        group.stops.update(drawn_stops(case))
+        group.cases[case.parameters.get("seed", "")] = case
     for series in side.series:
         key = _group_key(series, varied)
         for speed in series.speeds:
             name = f"{_group_name(series, key)}, wet stops from {speed.place}"
             speed_key = key._replace(speed_kmh=speed.speed_kmh, rail=speed.rail)
-            groups[speed_key] = Group(name, _wet_stops(series, speed))
+            groups[speed_key] = Group(name, _wet_stops(series, speed), series=series)
     return groups
 
 
@@ -307,42 +347,59 @@ class PairedComparison:
     not_paired: tuple[NotPaired, ...] = ()
 
 
-def compare_paired_runs(first: RunContent, second: RunContent) -> PairedComparison:
-    """Return the paired differences of two runs."""
-    ours, theirs = (Side(run.name, run.results, run.series) for run in (first, second))
-    return compare_sides(ours, theirs)
+@dataclass(frozen=True, slots=True)
+class MatchedGroup:
+    """A group as both sides have it, None where one has none, and its pairs, or why there are none."""
+
+    sides: tuple[Group | None, Group | None]
+    pairs: PairedGroup | NotPaired
+
+    @property
+    def known(self) -> Group:
+        """The group of the first side, else of the second."""
+        return next(side for side in self.sides if side is not None)
+
+    @property
+    def common_cases(self) -> list[tuple[CaseResult, CaseResult]]:
+        """The cases that both sides have, by their seed."""
+        first, second = (side.cases if side is not None else {} for side in self.sides)
+        return [(first[seed], second[seed]) for seed in first if seed in second]
 
 
-def compare_sides(first: Side, second: Side, varied: Collection[str] = ()) -> PairedComparison:
-    """Return the differences of the groups that both sides have, paired by the random seeds common to both.
+def match_groups(first: RunContent, second: RunContent, varied: Collection[str] = ()) -> list[MatchedGroup]:
+    """Return the groups of both sides, their stops paired by the random seeds common to both.
 
-    `varied` are the keys in which the sides differ. A group with one stop on each side is left out: it has no
-    interval.
+    `varied` are the keys in which the sides differ.
     """
     ours, theirs = (groups_of(side, varied) for side in (first, second))
-    groups: list[PairedGroup] = []
-    not_paired = [
-        *_groups_without_partner(first.name, ours, theirs),
-        *_groups_without_partner(second.name, theirs, ours),
+    return [
+        _matched(ours.get(key), theirs.get(key), first.name, second.name)
+        for key in dict.fromkeys([*ours, *theirs])
     ]
-    for key, group in ours.items():
-        stops = group.stops, theirs[key].stops if key in theirs else {}
-        if key not in theirs or max(map(len, stops)) < FEWEST_PAIRS:
-            continue
+
+
+def _matched(ours: Group | None, theirs: Group | None, first: str, second: str) -> MatchedGroup:
+    pairs: PairedGroup | NotPaired
+    if ours is not None and theirs is not None:
         try:
-            groups.append(paired_group(group.name, *stops))
+            pairs = paired_group(ours.name, ours.stops, theirs.stops)
         except ValueError as error:
-            not_paired.append(NotPaired(group.name, str(error)))
-    return PairedComparison(first.name, second.name, tuple(groups), tuple(not_paired))
+            pairs = NotPaired(ours.name, str(error))
+    else:
+        known, side = (ours, first) if ours is not None else (theirs, second)
+        pairs = NotPaired(known.name if known else "", f"only {side} has it")
+    return MatchedGroup((ours, theirs), pairs)
 
 
-def _groups_without_partner(
-    side: str, groups: Mapping[GroupKey, Group], others: Mapping[GroupKey, Group]
-) -> Iterator[NotPaired]:
-    """Yield the groups that this side alone has."""
-    for key, group in groups.items():
-        if key not in others and len(group.stops) >= FEWEST_PAIRS:
-            yield NotPaired(group.name, f"only {side} has it")
+def paired_comparison(first: str, second: str, matched: Sequence[MatchedGroup]) -> PairedComparison:
+    """Return the pairs of all groups under the names of both sides."""
+    pairs = [each.pairs for each in matched]
+    return PairedComparison(
+        first,
+        second,
+        tuple(each for each in pairs if isinstance(each, PairedGroup)),
+        tuple(each for each in pairs if isinstance(each, NotPaired)),
+    )
 
 
 def paired_form(compared: PairedComparison) -> dict[str, Any]:
@@ -354,22 +411,12 @@ def paired_form(compared: PairedComparison) -> dict[str, Any]:
     return form
 
 
-def variants_json(run: str, compared: Sequence[PairedComparison]) -> str:
-    """Return the variants of a run as a JSON document."""
-    form = {
-        **envelope.head(envelope.RESULT, "variants"),
-        "run": run,
-        "variants": [paired_form(each) for each in compared],
-    }
-    return json.dumps(form, indent=2, allow_nan=False)
-
-
 Variant = tuple[tuple[str, str], ...]
 """Keys and values, as written."""
 
 
-def compare_variants(run: RunContent, keys: Sequence[str]) -> list[PairedComparison]:
-    """Return the differences of every variant of a run from the first one, as the keys tell them apart.
+def variants_of(run: RunContent, keys: Sequence[str]) -> list[RunContent]:
+    """Return the variants of a run as runs of their own, as the keys tell them apart.
 
     Cases and series without any of the keys are left out. Raises ValueError where there are no two variants,
     for a key that none of them has and for one that is given twice.
@@ -388,20 +435,19 @@ def compare_variants(run: RunContent, keys: Sequence[str]) -> list[PairedCompari
     variants = list(dict.fromkeys(variant for values in parameters if (variant := _variant(values, keys))))
     if len(variants) < 2:
         raise ValueError(f"there is one variant only, {_variant_name(variants[0])}")
-    first, *later_sides = (_side_of_variant(run, variant, keys) for variant in variants)
-    return [compare_sides(first, variant_side, keys) for variant_side in later_sides]
+    return [
+        dataclasses.replace(
+            run,
+            name=_variant_name(variant),
+            results=[case for case in run.results if _variant(case.parameters, keys) == variant],
+            series=[series for series in run.series if _variant(series.parameters, keys) == variant],
+        )
+        for variant in variants
+    ]
 
 
 def _variant(parameters: Mapping[str, str], keys: Sequence[str]) -> Variant:
     return tuple((key, parameters[key]) for key in keys if key in parameters)
-
-
-def _side_of_variant(run: RunContent, variant: Variant, keys: Sequence[str]) -> Side:
-    return Side(
-        _variant_name(variant),
-        [case for case in run.results if _variant(case.parameters, keys) == variant],
-        [series for series in run.series if _variant(series.parameters, keys) == variant],
-    )
 
 
 def _variant_name(variant: Variant) -> str:

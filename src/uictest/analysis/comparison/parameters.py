@@ -4,39 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Final
 
 from uictest.judging import evaluation
-from uictest.report import listed
+from uictest.report import NAMED, counted, listed
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterOfRun:
-    """What one run has for a parameter, or for the name of a part.
-
-    `value` is in `unit`, an SI unit; a setting or a name has none. `written` is the value as its file has it.
-    """
-
-    value: float | str
-    unit: str
-    written: str
+def short_digest(text: str) -> str:
+    """Return the first digits of a SHA-256; another text as it is."""
+    return text if len(text) != 64 else f"{text[:12]}..."
 
 
 @dataclass(frozen=True, slots=True)
 class ParameterChange:
     """A parameter, or the name of a part, that differs between two runs, and the cases in which it does.
 
-    `first` and `second` are what the runs have; None where a run does not have it.
+    `first` and `second` are what the runs have, as their files have it; `none` where a run does not have it.
     """
 
     key: str
-    first: ParameterOfRun | None
-    second: ParameterOfRun | None
+    first: str
+    second: str
     cases: tuple[str, ...]
 
     @property
     def texts(self) -> tuple[str, str]:
-        """What both runs have, for a reader: as written, or `none`."""
-        return _value_text(self.first), _value_text(self.second)
+        """What both runs have, for a reader: of a digest its first digits."""
+        return short_digest(self.first), short_digest(self.second)
 
 
 def change_text(change: ParameterChange) -> str:
@@ -47,11 +41,13 @@ def change_text(change: ParameterChange) -> str:
 def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
     """Yield a line for each change, with the cases it is in."""
     for change in changes:
-        yield f"parameter {change_text(change)} (in {listed(change.cases)})"
+        cases = listed(change.cases) if len(change.cases) <= NAMED else counted(len(change.cases), "case")
+        yield f"parameter {change_text(change)} (in {cases})"
 
 
-Change = tuple[str, ParameterOfRun | None, ParameterOfRun | None]
+Change = tuple[str, str, str]
 """Key, and what both runs have."""
+_NONE: Final = "none"
 
 
 def parameter_changes(
@@ -81,7 +77,7 @@ def _changes_of_part(
     second: evaluation.EffectivePart | None,
     told_versions: tuple[str, str],
 ) -> Iterator[Change]:
-    names = [None if part is None else ParameterOfRun(part.name, "", part.name) for part in (first, second)]
+    names = [_NONE if part is None else part.name for part in (first, second)]
     if names[0] != names[1]:
         yield role, names[0], names[1]
     if first is None or second is None:
@@ -90,7 +86,7 @@ def _changes_of_part(
     for key in dict.fromkeys([*ours, *theirs]):
         before, after = ours.get(key), theirs.get(key)
         if before is None or after is None or (before.value, before.unit) != (after.value, after.unit):
-            yield key, _parameter_of_run(before), _parameter_of_run(after)
+            yield key, before.written if before else _NONE, after.written if after else _NONE
 
 
 def _parameters_by_key(part: evaluation.EffectivePart, told: str) -> dict[str, evaluation.Parameter]:
@@ -101,13 +97,3 @@ def _parameters_by_key(part: evaluation.EffectivePart, told: str) -> dict[str, e
         for key, text in ((f"{part.key}.{name}", text) for name, text in versions.items() if text):
             parameters[key] = evaluation.Parameter(key, text, "", text, "")
     return parameters
-
-
-def _parameter_of_run(parameter: evaluation.Parameter | None) -> ParameterOfRun | None:
-    if parameter is None:
-        return None
-    return ParameterOfRun(parameter.value, parameter.unit, parameter.written)
-
-
-def _value_text(value: ParameterOfRun | None) -> str:
-    return "none" if value is None else value.written

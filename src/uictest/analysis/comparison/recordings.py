@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest import report
-from uictest.analysis.comparison.difference import Comparison
+from uictest.analysis.comparison.comparison_document import Comparison
 from uictest.analysis.comparison.overlay import (
+    DISTANCE,
     FIRST_DRAWN,
     ChannelDifference,
     Overlay,
@@ -67,7 +68,19 @@ def compare_recordings(
     remarkable = [difference.quantity for difference in differences if not difference.within]
     drawn = select_channels(channels, common) if channels else default_channels(remarkable, list(common))
     overlay = overlay_of("Recordings", first, second, [common[name] for name in drawn])
-    return Comparison(*names, len(quantities), differences, overlay.remarks, [overlay])
+    about = list(_runs_of(names, first, second))
+    return Comparison(*names, len(quantities), differences, overlay.remarks, [overlay], about=about)
+
+
+def _runs_of(
+    names: tuple[str, str], first: recording.Recording, second: recording.Recording
+) -> Iterator[str]:
+    """Yield by how much further the second recording runs than the first."""
+    if DISTANCE in first.channels and DISTANCE in second.channels:
+        ours, theirs = (float(np.nanmax(record[DISTANCE])) for record in (first, second))
+        word = "further" if theirs > ours else "less far"
+        change = f"{number(abs(theirs - ours))} m {word}" if ours != theirs else "as far"
+        yield f"{names[1]} runs {change}: {number(theirs)} m, {names[0]} {number(ours)} m."
 
 
 def _channel_differences(
@@ -151,7 +164,7 @@ def with_overlays(
     pairs = {case_id: pair for case_id in cases[:DRAWN] if (pair := _recorded_pair(case_id, first, second))}
     shared_names = [name for pair in pairs.values() for name in _shared_channels(pair)]
     chosen = select_channels(channels, shared_names) if channels and pairs else None
-    overlays = [_overlay_of_case(case_id, pair, chosen, tolerances) for case_id, pair in pairs.items()]
+    overlays = [stops_laid_over(case_id, pair, chosen, tolerances) for case_id, pair in pairs.items()]
     remarks = list(_undrawn_stop_lines(cases, pairs, first, second))
     return dataclasses.replace(compared, overlays=overlays, undrawn=remarks)
 
@@ -160,19 +173,26 @@ def _recorded_pair(case_id: str, first: Path, second: Path) -> Pair | None:
     paths = [report.recording_path(folder, case_id) for folder in (first, second)]
     if not all(path.is_file() for path in paths):
         return None
-    return in_shown_units(recording.read_parquet(paths[0])), in_shown_units(recording.read_parquet(paths[1]))
+    return recording.read_parquet(paths[0]), recording.read_parquet(paths[1])
 
 
 def _shared_channels(pair: Pair) -> list[str]:
     return common_channels(pair[0].units, pair[1].units)
 
 
-def _overlay_of_case(
-    case_id: str, pair: Pair, chosen: Sequence[str] | None, tolerances: Tolerances
+def stops_laid_over(
+    case_id: str, pair: Pair, chosen: Sequence[str] | None = None, tolerances: Tolerances | None = None
 ) -> Overlay:
+    """Return two recordings of a stop in the units of the page, one laid over the other.
+
+    `chosen` names the channels; where it is None, the most informative ones are drawn. A tolerance that
+    names a channel is drawn with it.
+    """
+    pair = in_shown_units(pair[0]), in_shown_units(pair[1])
     common = _shared_channels(pair)
     names = default_channels(FIRST_DRAWN, common) if chosen is None else chosen
-    allowed = {name: allowed_of(name, pair, tolerances) for name in common if tolerances.names(name)}
+    named = [name for name in common if tolerances is not None and tolerances.names(name)]
+    allowed = {name: allowed_of(name, pair, tolerances) for name in named if tolerances is not None}
     return overlay_of(
         case_id,
         *pair,

@@ -2,37 +2,65 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Final, TypeVar
 
 from uictest import report
-from uictest.analysis.comparison.difference import Comparison
-from uictest.analysis.comparison.paired_stops import compare_paired_runs
-from uictest.analysis.comparison.parameters import parameter_changes
-from uictest.analysis.comparison.tolerance import Scope, Tolerances, compare_numbers
-from uictest.core.measures import column_unit
+from uictest.analysis.comparison.answer import answer_of, subject_names
+from uictest.analysis.comparison.comparison_document import Comparison
+from uictest.analysis.comparison.paired_stops import match_groups, paired_comparison, variants_of
+from uictest.analysis.comparison.parameters import parameter_changes, short_digest
+from uictest.analysis.comparison.tolerance import Tolerances, compare_numbers
+from uictest.core.measures import MEASURES, column_unit
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
+from uictest.judging.evaluation import Verdict
 from uictest.judging.series import SeriesResult
 from uictest.report import Difference, StatusChange, status_difference, wheelset_quantity
 
+MISSING: Final = "missing"
+"""Stands for the outcome of a case or series on the side that has none."""
+SHARE_PASSED: Final = "share_passed"
+"""The share of the stops of a repeated case that pass, among its quantities."""
 
-def series_differences(
-    first: Sequence[SeriesResult], second: Sequence[SeriesResult], tolerances: Tolerances
-) -> Iterator[Difference | None]:
-    """Yield one item per quantity of the series compared: None where both sides are the same.
 
-    Series are paired by id; one on one side only is a difference.
+Quantities = dict[str, list[Difference | None]]
+"""Id of a case or series -> an item per quantity compared: None where both sides are the same."""
+Result = TypeVar("Result", evaluation.CaseResult, SeriesResult)
+
+
+def quantities_of_runs(
+    first: report.RunContent, second: report.RunContent, tolerances: Tolerances
+) -> Quantities:
+    """Return the quantities of two runs, whose cases and series are paired by id.
+
+    One on one side only is a difference.
     """
-    ours, theirs = ({result.id: result for result in side} for side in (first, second))
-    for name in dict.fromkeys([*ours, *theirs]):
-        if name in ours and name in theirs:
-            yield from differences_of_series(ours[name], theirs[name], tolerances)
+    cases = _paired("case", first.results, second.results, case_differences, tolerances)
+    return cases | _paired("series", first.series, second.series, differences_of_series, tolerances)
+
+
+def _paired(
+    kind: str,
+    first: Sequence[Result],
+    second: Sequence[Result],
+    compared: Callable[[Result, Result, Tolerances], Iterator[Difference | None]],
+    tolerances: Tolerances,
+) -> Quantities:
+    ours: dict[str, Result] = {result.id: result for result in first}
+    theirs: dict[str, Result] = {result.id: result for result in second}
+    quantities: Quantities = {}
+    for own_id in dict.fromkeys([*ours, *theirs]):
+        if own_id in ours and own_id in theirs:
+            quantities[own_id] = list(compared(ours[own_id], theirs[own_id], tolerances))
         else:
-            before, after = (side[name].outcome if name in side else "missing" for side in (ours, theirs))
-            remark = "the series is on one side only"
-            yield Difference(name, "series", before, after, within=False, remark=remark)
+            before = ours[own_id].outcome if own_id in ours else MISSING
+            after = theirs[own_id].outcome if own_id in theirs else MISSING
+            remark = f"the {kind} is on one side only"
+            quantities[own_id] = [Difference(own_id, kind, before, after, within=False, remark=remark)]
+    return quantities
 
 
 def differences_of_series(
@@ -74,76 +102,51 @@ def _series_numbers(result: SeriesResult) -> dict[tuple[str, str], float]:
     }
 
 
-@dataclass(frozen=True, slots=True)
-class AcceptedSeries:
-    """Series against a baseline.
-
-    `quantities` has an item per quantity compared of each series, by its id: None where both sides are the
-    same. `files` has the file of each of these series. `not_compared` are ids of accepted series that were
-    not run or not selected.
-    """
-
-    quantities: Mapping[str, Sequence[Difference | None]]
-    files: Mapping[str, str]
-    not_compared: Sequence[str]
-
-
-def compare_accepted_series(
-    accepted: Sequence[SeriesResult], run: Sequence[SeriesResult], scope: Scope, tolerances: Tolerances
-) -> AcceptedSeries:
-    """Compare the series of a run; one that its file no longer has, or that is new, is a difference."""
-    before = {result.id: result for result in accepted}
-    quantities: dict[str, Sequence[Difference | None]] = {}
-    for result in run:
-        accepted_result = before.pop(result.id, None)
-        quantities[result.id] = (
-            [_new_series(result)]
-            if accepted_result is None
-            else list(differences_of_series(accepted_result, result, tolerances))
-        )
-    missing = [result for result in before.values() if scope.misses(result.id, result.file)]
-    quantities |= {result.id: [_missing_series(result)] for result in missing}
-    return AcceptedSeries(
-        quantities,
-        {result.id: result.file for result in (*run, *missing)},
-        [own_id for own_id in before if own_id not in quantities],
-    )
-
-
-def _new_series(result: SeriesResult) -> Difference:
-    remark = "the baseline has no such series; --accept adds it"
-    return Difference(result.id, "series", "missing", result.outcome, within=False, remark=remark)
-
-
-def _missing_series(result: SeriesResult) -> Difference:
-    remark = f"{result.file} no longer has this series; --accept drops it"
-    return Difference(result.id, "series", result.outcome, "missing", within=False, remark=remark)
-
-
 Pair = tuple[evaluation.CaseResult, evaluation.CaseResult]
 """A case on both sides."""
-
-_DIGEST_LENGTH = 64
-"""Hexadecimal digits of a SHA-256; readers see the first twelve."""
 
 
 def compare_runs(first: report.RunContent, second: report.RunContent, tolerances: Tolerances) -> Comparison:
     """Compare two runs. Cases and series are paired by id; one on one side only is a difference."""
     ours, theirs = ({result.id: result for result in run.results} for run in (first, second))
-    quantities: list[Difference | None] = []
-    for case_id in dict.fromkeys([*ours, *theirs]):
-        quantities += _differences_of_case(case_id, ours.get(case_id), theirs.get(case_id), tolerances)
-    quantities += series_differences(first.series, second.series, tolerances)
+    quantities = [each for own in quantities_of_runs(first, second, tolerances).values() for each in own]
     both = [(ours[case_id], theirs[case_id]) for case_id in ours if case_id in theirs]
+    parameters = parameter_changes([*both, *stops_of_series(first, second)])
+    subjects = subject_names(first, second, parameters)
+    matched = match_groups(*_named(first, second, subjects))
     return Comparison(
         first.name,
         second.name,
         len(quantities),
         [difference for difference in quantities if difference is not None],
         list(run_notes(first, second)),
-        parameters=parameter_changes([*both, *stops_of_series(first, second)]),
-        paired=compare_paired_runs(first, second),
+        parameters=parameters,
+        paired=paired_comparison(first.name, second.name, matched),
+        answer=answer_of(matched, subjects, tolerances),
+        series=[result.id for run in (first, second) for result in run.series],
     )
+
+
+def compare_variants(run: report.RunContent, keys: Sequence[str], tolerances: Tolerances) -> list[Comparison]:
+    """Return every variant of a run against the first one, as the keys tell them apart.
+
+    Raises ValueError where there are no two variants, and for a key that none of them has or is given twice.
+    """
+    first, *others = variants_of(run, keys)
+    compared = []
+    for other in others:
+        subjects = subject_names(first, other, [])
+        matched = match_groups(*_named(first, other, subjects), varied=keys)
+        paired = paired_comparison(first.name, other.name, matched)
+        answer = answer_of(matched, subjects, tolerances)
+        compared.append(Comparison(first.name, other.name, paired=paired, answer=answer))
+    return compared
+
+
+def _named(
+    first: report.RunContent, second: report.RunContent, names: tuple[str, str]
+) -> tuple[report.RunContent, report.RunContent]:
+    return dataclasses.replace(first, name=names[0]), dataclasses.replace(second, name=names[1])
 
 
 def stops_of_series(first: report.RunContent, second: report.RunContent) -> Iterator[Pair]:
@@ -152,20 +155,6 @@ def stops_of_series(first: report.RunContent, second: report.RunContent) -> Iter
     for case in (each.case for result in first.series for each in result.cases):
         if case.id in theirs:
             yield case, theirs[case.id]
-
-
-def _differences_of_case(
-    case_id: str,
-    first: evaluation.CaseResult | None,
-    second: evaluation.CaseResult | None,
-    tolerances: Tolerances,
-) -> Iterator[Difference | None]:
-    """Yield one item per quantity compared: None where both sides are the same."""
-    if first is None or second is None:
-        before, after = ("missing" if side is None else side.outcome for side in (first, second))
-        yield Difference(case_id, "case", before, after, within=False, remark="the case is on one side only")
-        return
-    yield from case_differences(first, second, tolerances)
 
 
 def case_differences(
@@ -177,9 +166,7 @@ def case_differences(
     if first.repeats or second.repeats:
         stops = _stops_text(first), _stops_text(second)
         yield None if stops[0] == stops[1] else Difference(case_id, "stops", *stops, within=False)
-        yield compare_numbers(
-            case_id, "share_passed", _share_passed(first), _share_passed(second), tolerances
-        )
+        yield compare_numbers(case_id, SHARE_PASSED, _share_passed(first), _share_passed(second), tolerances)
     verdicts, others = ({each.id: each.status for each in side.criteria} for side in (first, second))
     for name in dict.fromkeys([*verdicts, *others]):
         yield status_difference(case_id, StatusChange(verdicts.get(name), others.get(name), name))
@@ -187,6 +174,12 @@ def case_differences(
     for name in dict.fromkeys([*ours, *theirs]):
         sides = ours.get(name, math.nan), theirs.get(name, math.nan)
         yield compare_numbers(case_id, name, *sides, tolerances, column_unit(name))
+
+
+def judged_quantities(verdicts: Iterable[Verdict]) -> set[str]:
+    """Return the columns of stops and wheelsets, and the measures of series, that criteria judge."""
+    measures = [(verdict.measure, MEASURES.get(verdict.measure)) for verdict in verdicts]
+    return {measure.column.name if measure and measure.column else name for name, measure in measures}
 
 
 def _stops_text(result: evaluation.CaseResult) -> str:
@@ -219,10 +212,7 @@ def _changed_inputs(
     first: Mapping[str, str | int | None], second: Mapping[str, str | int | None], prefix: str = ""
 ) -> Iterator[str]:
     for name in dict.fromkeys([*first, *second]):
-        if first.get(name) != second.get(name):
-            yield f"{prefix}{name}: {_input_text(first.get(name))} -> {_input_text(second.get(name))}"
-
-
-def _input_text(value: str | int | None) -> str:
-    text = "none" if value is None else str(value)
-    return f"{text[:12]}..." if len(text) == _DIGEST_LENGTH else text
+        sides = first.get(name), second.get(name)
+        if sides[0] != sides[1]:
+            texts = (short_digest("none" if side is None else str(side)) for side in sides)
+            yield f"{prefix}{name}: {' -> '.join(texts)}"

@@ -21,7 +21,7 @@ from uictest.analysis.logged_stops.stop_groups import (
 from uictest.analysis.logged_stops.wet_stops import extensions, series_table, wet_series, wet_table
 from uictest.core.document import Cell
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.judging.evaluation import CaseResult, narrowest_margin
+from uictest.judging.evaluation import CaseResult, deciding_verdicts, narrowest_margin
 from uictest.judging.series import SeriesResult
 from uictest.plans.scenario import Case
 from uictest.recorded import field_data, service_log
@@ -29,15 +29,18 @@ from uictest.recorded.service_log import LoggedEvent, clock_text
 
 _COLUMNS: Final = (
     report.CampaignColumn(report.STOPS, "stop"),
-    report.CampaignColumn("clock", "time"),
-    report.CampaignColumn("distance_m", "in the file at\nm", 0),
-    report.CampaignColumn("place_m", "on the line at\nm", 0),
-    report.CampaignColumn("speed_kmh", "from\nkm/h", 1),
     report.CampaignColumn("outcome", "outcome"),
-    report.CampaignColumn("narrowest_margin_percent", "narrowest margin\n%", 1),
-    report.CampaignColumn("criterion", "of requirement"),
-    report.CampaignColumn("locked_s", "locked\ns", 1),
+    report.CampaignColumn("rail", "rail"),
+    report.CampaignColumn("clock", "time"),
+    report.CampaignColumn("place_m", "on the line at\nm", 0),
+    report.CampaignColumn("misses", "misses", wraps=True),
+    report.CampaignColumn("braking_distance_m", "distance\nm", 1),
     report.CampaignColumn("extension_percent", "extension\n%", 1),
+    report.CampaignColumn("locked_s", "locked\ns", 1),
+    report.CampaignColumn("speed_kmh", "from\nkm/h", 1),
+    report.CampaignColumn("distance_m", "in the file at\nm", 0),
+    report.CampaignColumn("narrowest_margin_percent", ""),
+    report.CampaignColumn("criterion", ""),
     report.CampaignColumn("file", ""),
     report.CampaignColumn("sample", ""),
     report.CampaignColumn("time_s", ""),
@@ -51,6 +54,7 @@ def worst_table(
 ) -> report.CampaignTable:
     """Return every stop, the worst first, those that could not be judged last; `stops` are those judged."""
     lengths, positions = extensions(stops), {stop.result.id: stop.place for stop in stops}
+    dry = {stop.result.id for stop in stops if stop.dry}
     ranked: list[tuple[tuple[float, ...], dict[str, Cell]]] = []
     for result in results:
         margin, criterion = narrowest_margin(result, ("requirement",))
@@ -61,6 +65,7 @@ def worst_table(
         rank = (
             not result.measures,
             result.requirement_status != "missed",
+            result.id in dry,
             math.inf if margin is None else margin,
             -locked,
             -(longer or 0.0),
@@ -69,6 +74,9 @@ def worst_table(
         record = {
             report.STOPS: result.id,
             "outcome": result.outcome,
+            "rail": DRY if result.id in dry else "wet",
+            "misses": _misses_text(result, criterion),
+            "braking_distance_m": (result.measures or {}).get("braking_distance_m"),
             "narrowest_margin_percent": None if margin is None else round(100.0 * margin, 1),
             "criterion": criterion,
             "locked_s": locked if result.measures else None,
@@ -79,12 +87,20 @@ def worst_table(
     return report.CampaignTable.of_records(
         "stops",
         "Stops, the worst first",
-        "A missed requirement first; then by the narrowest margin of a requirement, the time for which a"
-        " wheelset is locked, the extension over the dry stops, and the least mean deceleration.",
+        "Those that miss a requirement first, wet ones before dry ones; then by the narrowest margin.",
         "first",
         _COLUMNS,
         [record for _, record in sorted(ranked, key=lambda pair: pair[0])],
     )
+
+
+def _misses_text(result: CaseResult, criterion: str) -> str:
+    """Return what decides that a stop does not pass, the criterion of the narrowest margin where it does."""
+    if result.outcome == "pass":
+        return ""
+    _, verdicts = deciding_verdicts(result.decided)
+    first = sorted(verdicts, key=lambda verdict: verdict.id != criterion)[:1]
+    return report.missed_sentence(first[0]) if first else result.reason
 
 
 _PASSED_OVER: Final = tuple(

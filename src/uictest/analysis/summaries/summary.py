@@ -234,13 +234,11 @@ def _sweep_result(
 
 
 def _outcome_notes(plan: Plan, outcomes: Mapping[str, int]) -> Iterator[str]:
-    """Yield the requirements of the scenario, and how many cases are not judged or inconclusive."""
+    """Yield the requirements of the scenario, and how many cases are not judged."""
     if requirements := named_requirements(plan.base.scenario):
         yield f"requirements that the scenario and its criteria name: {', '.join(requirements)}"
     if count := outcomes["skipped"]:
         yield f"{counted(count, 'case')} not judged, since no criterion applies: met by `expect: skipped`"
-    if count := outcomes["inconclusive"]:
-        yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
 
 
 def _sobol_sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:

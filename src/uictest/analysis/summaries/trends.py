@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from uictest.analysis.summaries.tally import ParameterBins
 from uictest.core.measures import column_unit
 from uictest.plans.sweeps import ListedGroup, Plan
-from uictest.report import MET, MapAxis, MeasureRange, SweepMap, Trend
+from uictest.report import MET, VALID, MapAxis, MeasureRange, SweepMap, Trend
 from uictest.running.chunked import wheelset_columns
 
 if TYPE_CHECKING:
@@ -185,7 +185,7 @@ class MapSums:
         self._plan = plan
         shape = (len(rows.values), len(columns.values))
         self._sum, self._known = np.zeros(shape), np.zeros(shape, np.int64)
-        self._met, self._cases = np.zeros(shape, np.int64), np.zeros(shape, np.int64)
+        self._met, self._cases, self._valid = (np.zeros(shape, np.int64) for _ in range(3))
 
     def add(self, table: pa.Table) -> None:
         """Add the rows of a chunk; a case without the measure does not count in its mean."""
@@ -197,6 +197,7 @@ class MapSums:
         np.add.at(self._known, (down[known], across[known]), 1)
         np.add.at(self._met, (down, across), np.array(table.column(MET).to_pylist(), bool))
         np.add.at(self._cases, (down, across), 1)
+        np.add.at(self._valid, (down, across), np.isin(table.column("outcome").to_pylist(), VALID))
 
     def map(self) -> SweepMap:
         """Return the map of the rows that were added."""
@@ -207,5 +208,6 @@ class MapSums:
             means=numbers_or_none(self._sum / np.where(self._known > 0, self._known, np.nan)),
             met=self._met.tolist(),
             cases=self._cases.tolist(),
+            valid=self._valid.tolist(),
             known=self._known.tolist(),
         )

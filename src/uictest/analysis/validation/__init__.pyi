@@ -9,6 +9,7 @@ from .document import (
     as_recorded as as_recorded,
     figures_of as figures_of,
     read_validation as read_validation,
+    relative_difference as relative_difference,
     seed_of as seed_of,
     validation_json as validation_json,
     validation_of as validation_of,

@@ -95,6 +95,12 @@ def figures_of(result: CaseResult) -> dict[str, float]:
     return figures
 
 
+def relative_difference(recorded: Figures, simulated: Figures) -> float:
+    """Return by what share of the recorded braking distance the simulated one is longer; NaN without both."""
+    ours, theirs = (figures.get("braking_distance_m", math.nan) for figures in (recorded, simulated))
+    return (theirs - ours) / ours if ours else math.nan
+
+
 @dataclass(frozen=True, slots=True)
 class Differences:
     """Differences summed up; NaN is what one stop, or equal differences, cannot show.

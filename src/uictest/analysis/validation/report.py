@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
 
-from uictest.analysis.validation.document import Agreement, ComparedStop, Differences, Validation
+from uictest.analysis.comparison import OVERLAY_WORDS, Overlay
+from uictest.analysis.validation.document import (
+    Agreement,
+    ComparedStop,
+    Differences,
+    Validation,
+    relative_difference,
+)
 from uictest.analysis.validation.domain import Domain
 from uictest.core.document import Cell, Column, Document, Lines, Table, table_of
 from uictest.core.measures import STOP_COLUMNS, without_wheelset
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.report import counted, interval_text
-from uictest.report.page import Effect, forest, render
+from uictest.report import counted, interval_text, percent
+from uictest.report.page import Effect, case_anchor, forest, fragment, render
 
 _ALWAYS: Final = ("initial_speed", "brake.command", "rail.friction", "rail.gradient", "vehicle.body.mass")
 """Numbers of a domain that are shown even where they are the same in all stops."""
@@ -35,15 +42,26 @@ def _relative_bias(agreement: Agreement) -> str:
     return "-" if agreement.relative is None else f"{100.0 * agreement.relative.bias:+.2f}"
 
 
+_STOPS: Final[tuple[Column[ComparedStop], ...]] = (
+    Column(heading="stop", text=lambda stop: stop.id, wraps=True, literal=True),
+    Column(heading="from", unit="km/h", value=lambda stop: stop.initial_speed / KILOMETRE_PER_HOUR, digits=1),
+    Column(heading="recorded", unit="m", value=lambda stop: stop.recorded[_DISTANCE], digits=1),
+    Column(heading="simulated", unit="m", value=lambda stop: stop.simulated[_DISTANCE], digits=1),
+    Column(
+        heading="off",
+        unit="%",
+        text=lambda stop: f"{100.0 * relative_difference(stop.recorded, stop.simulated):+.2f}",
+        right=True,
+    ),
+)
 _FIGURES: Final[tuple[Column[Agreement], ...]] = (
     Column(heading="figure", text=lambda each: each.figure),
     Column(heading="stops", text=lambda each: str(each.stops), right=True),
-    Column(heading="recorded", text=lambda each: _number_text(each.recorded_mean), rank=4, right=True),
+    Column(heading="recorded", text=lambda each: _number_text(each.recorded_mean), rank=1, right=True),
     Column(heading="bias", text=lambda each: f"{each.absolute.bias:+.4g}", right=True),
     Column(
         heading="interval of bias",
         text=lambda each: _interval_text(each.absolute.bias_low, each.absolute.bias_high),
-        rank=1,
         right=True,
     ),
     Column(heading="spread", text=lambda each: _number_text(each.absolute.deviation), rank=2, right=True),
@@ -53,12 +71,15 @@ _FIGURES: Final[tuple[Column[Agreement], ...]] = (
         rank=3,
         right=True,
     ),
-    Column(heading="bias, %", text=_relative_bias, rank=5, right=True),
+    Column(heading="bias, %", text=_relative_bias, right=True),
 )
 
 
 def validation_document(validation: Validation, *, every_figure: bool = True) -> Document:
-    """Return stops, figures, domain and remarks; `every_figure`: those of single wheelsets too."""
+    """Return the answer, stops, figures, domain, remarks; `every_figure`: those of single wheelsets too."""
+    furthest_off = sorted(
+        validation.counted, key=lambda stop: -abs(relative_difference(stop.recorded, stop.simulated))
+    )
     shown = [each for each in validation.figures if every_figure or each.figure in STOP_COLUMNS]
     further = len(validation.figures) - len(shown)
     more = [f"{further} figures of single wheelsets: -v, tables/figures.csv"] if further else []
@@ -67,7 +88,8 @@ def validation_document(validation: Validation, *, every_figure: bool = True) ->
     return Document(
         f"Validation {validation.name}",
         [
-            Lines(list(_stop_lines(validation)), "Stops"),
+            Lines([answer(validation), *_not_counted_lines(validation)]),
+            Table(_STOPS, furthest_off, "Stops, the furthest off first", all_in="tables/stops.csv"),
             Table(_FIGURES, shown, "Figures", all_in="tables/figures.csv"),
             Lines(domains, "Domain"),
             Lines([*remarks(validation), *more], "Remarks"),
@@ -81,17 +103,36 @@ def tally(validation: Validation) -> str:
     return f"{len(validation.counted)} of {counted(len(validation.stops), 'recorded stop')} counted"
 
 
-def _stop_lines(validation: Validation) -> Iterator[str]:
+def answer(validation: Validation) -> str:
+    """Return how far off the simulated stops are: `simulated stops are 0.6 % longer (...), 4 stops`."""
+    distance = next((each for each in validation.figures if each.figure == _DISTANCE), None)
+    if distance is None or distance.relative is None:
+        return f"no recorded stop counts: nothing is validated ({tally(validation)})"
+    bias, low, high = distance.relative.bias, distance.relative.bias_low, distance.relative.bias_high
+    stops = counted(distance.stops, "stop")
+    if math.isnan(low):
+        alike = "1 stop shows no interval" if distance.stops == 1 else f"{stops}, equally far off"
+        return f"simulated stops are {_longer(bias)} than recorded: {alike}"
+    if low <= 0.0 <= high:
+        ends = f"{_longer(low)} to {_longer(high)}"
+        return f"no difference is shown by {stops}: simulated ones are {ends} on average"
+    near, far = sorted(map(abs, (low, high)))
+    ends = f"{100.0 * near:.2g} to {percent(far, 2)}"
+    return f"simulated stops are {_longer(bias)} than recorded ({ends}), {stops}"
+
+
+def _longer(share: float) -> str:
+    return f"{percent(abs(share), 2)} {'longer' if share >= 0.0 else 'shorter'}"
+
+
+def _not_counted_lines(validation: Validation) -> Iterator[str]:
     for stop in validation.stops:
-        recorded, simulated = (each.get(_DISTANCE, float("nan")) for each in (stop.recorded, stop.simulated))
-        percent = 100.0 * (simulated - recorded) / recorded if recorded else float("nan")
-        relative = "-" if percent != percent else f"{percent:+.2f} %"
-        figures = f"recorded {_number_text(recorded)} m, simulated {_number_text(simulated)} m ({relative})"
-        speed = f"from {stop.initial_speed / KILOMETRE_PER_HOUR:.4g} km/h"
-        if stop.tuned:
-            figures += "; not counted: numbers of its scenario were found with it"
-        result = f"not counted: {stop.not_counted}" if stop.not_counted else figures
-        yield f"stop {stop.id} {speed}: {result}"
+        if not stop.counted:
+            why = stop.not_counted or "numbers of its scenario were found with it"
+            yield (
+                f"not counted: {stop.id} from {stop.initial_speed / KILOMETRE_PER_HOUR:.4g} km/h"
+                f" ({stop.recording}): {why}"
+            )
 
 
 def domain_text(domain: Domain) -> str:
@@ -193,18 +234,22 @@ def _rows_of_stop(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
         yield {**shared, "figure": name, **values}
 
 
-def validation_html(validation: Validation) -> str:
-    """Return one page of recorded stops against their simulation; it loads nothing."""
+def validation_html(validation: Validation, overlays: Sequence[Overlay] = ()) -> str:
+    """Return one page of recorded stops against their simulation, some laid over it; it loads nothing."""
     effects = {
         each.figure: _relative_effect(each) for each in validation.figures if each.figure in STOP_COLUMNS
     }
     return render(
         "validation.html.j2",
-        with_plots=False,
+        with_plots=bool(overlays),
         running_head=validation.name,
         validation=validation,
         document=validation_document(validation),
-        tally=tally(validation),
+        answer=answer(validation),
+        overlays=overlays,
+        comparison={"first": "recorded", "second": "simulated"},
+        fragments={overlay.title: fragment(case_anchor(overlay.title)) for overlay in overlays},
+        **OVERLAY_WORDS,
         drawn=forest(
             (effect for effect in effects.values() if effect is not None),
             "Bias of each figure with its interval and the limits of agreement; the table has the numbers",

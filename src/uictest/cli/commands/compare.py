@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import sys
 from collections.abc import Sequence
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -11,17 +13,18 @@ import typer
 
 from uictest import report, runs
 from uictest.analysis import comparison
-from uictest.cli.options import (
-    ListFormat,
-    PlainFormat,
-    ToleranceTexts,
-    Verbose,
-    argument,
-    option,
-    tolerances_of,
-)
-from uictest.cli.output import ExitCode, data, message, terminal_width
+from uictest.cli.options import ToleranceTexts, Verbose, argument, option, tolerances_of
+from uictest.cli.output import ExitCode, data, message, output_width
 from uictest.core import files
+
+
+class ComparisonFormat(StrEnum):
+    """Format of a comparison on stdout."""
+
+    TEXT = "text"
+    JSON = "json"
+    CSV = "csv"
+    MARKDOWN = "markdown"
 
 
 def compare(
@@ -42,10 +45,12 @@ def compare(
     page: Annotated[
         Path | None, option("--html FILE", "Also write a page, with overlay plots of A and B.")
     ] = None,
-    shown: ListFormat = PlainFormat.TEXT,
+    shown: Annotated[
+        ComparisonFormat, option("--format", "Output on stdout: text, json, csv or markdown.")
+    ] = ComparisonFormat.TEXT,
     verbose: Verbose = False,
 ) -> ExitCode:
-    """Compare two runs or two recordings. Exit 1 if anything is out of tolerance.
+    """Compare two runs or two recordings: which is better. Exit 1 if anything is out of tolerance.
 
     With --over, compare the variants of one run, stop by stop under the same noise.
     """
@@ -54,7 +59,7 @@ def compare(
             raise typer.BadParameter("compares the variants of one run; leave B out", param_hint="--over")
         if tolerance or channels:
             raise typer.BadParameter("goes with neither --tolerance nor --channel", param_hint="--over")
-        return _compare_variants(first, over, shown, page)
+        return _compare_variants(first, over, shown, page, every=verbose)
     if second is None:
         raise typer.BadParameter("give a second run or recording, or --over KEY", param_hint="B")
     if channels and page is None:
@@ -62,18 +67,32 @@ def compare(
     compared = _compare_paths(
         first, second, tolerances_of(tolerance), None if page is None else channels or []
     )
-    if shown is PlainFormat.JSON:
-        data(comparison.comparison_json(compared))
-    else:
-        document = comparison.comparison_document(compared, every=verbose)
-        for line in report.document_lines(document, terminal_width(sys.stdout)):
-            data(line)
+    _show([compared], shown, comparison.comparison_json(compared), every=verbose)
     if page is not None:
         files.write_to(page, comparison.comparison_html(compared))
         for line in compared.undrawn:
             message(f"uictest: not drawn: {line}")
     message(f"uictest: {comparison.verdict_line(compared)}")
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
+
+
+def _show(
+    compared: Sequence[comparison.Comparison], shown: ComparisonFormat, json_text: str, *, every: bool
+) -> None:
+    """Print comparisons in a format."""
+    if shown is ComparisonFormat.JSON:
+        data(json_text)
+    elif shown is ComparisonFormat.CSV:
+        heading, *rows = report.csv_text(comparison.csv_table(compared[0])).splitlines()
+        others = (report.csv_text(comparison.csv_table(each)).splitlines()[1:] for each in compared[1:])
+        for line in (heading, *rows, *itertools.chain.from_iterable(others)):
+            data(line)
+    elif shown is ComparisonFormat.MARKDOWN:
+        data(report.document_markdown(comparison.comparison_document(*compared, every=True)).rstrip("\n"))
+    else:
+        document = comparison.comparison_document(*compared, every=every)
+        for line in report.spaced_lines(document, output_width(sys.stdout)):
+            data(line)
 
 
 def _compare_paths(
@@ -107,8 +126,10 @@ def _compared_runs(
         raise runs.InvalidInputError(f"cannot compare as runs: {error}") from error
 
 
-def _compare_variants(first: Path, keys: Sequence[str], shown: PlainFormat, page: Path | None) -> ExitCode:
-    """Print the paired differences of the variants of a run. Exit 5 where no stops pair."""
+def _compare_variants(
+    first: Path, keys: Sequence[str], shown: ComparisonFormat, page: Path | None, *, every: bool
+) -> ExitCode:
+    """Print the paired differences of the variants of a run. Exit 5 where no several stops pair."""
     folder = runs.run_folder(first)
     if reason := runs.why_no_run(folder):
         raise runs.InvalidInputError(f"{reason}; --over takes the folder of a run")
@@ -117,17 +138,15 @@ def _compare_variants(first: Path, keys: Sequence[str], shown: PlainFormat, page
     except (OSError, ValueError) as error:
         raise runs.InvalidInputError(f"cannot compare its variants: {error}") from error
     try:
-        compared = comparison.compare_variants(run, keys)
+        compared = comparison.compare_variants(run, keys, comparison.Tolerances())
     except ValueError as error:
         raise runs.InvalidInputError(f"--over: {error}") from error
-    if shown is PlainFormat.JSON:
-        data(comparison.variants_json(run.name, compared))
-    else:
-        for line in report.document_lines(comparison.variants_document(compared), terminal_width(sys.stdout)):
-            data(line)
+    _show(compared, shown, comparison.variants_json(run.name, compared), every=every)
     if page is not None:
-        files.write_to(page, comparison.variants_html(run.name, compared))
-    groups = sum(len(variant.groups) for variant in compared)
-    counts = report.counted(groups, "group of stops", "groups of stops")
+        files.write_to(page, comparison.comparison_html(*compared, run=run.name))
+    several = sum(each.groups_with_intervals for each in compared)
+    counts = report.counted(several, "group of stops", "groups of stops")
     message(f"uictest: {counts} of {report.counted(len(compared) + 1, 'variant')} paired")
-    return ExitCode.MET if groups else ExitCode.NOTHING_SELECTED
+    if not several:
+        message("uictest: no case or series has several stops on both sides: --repeat 5 makes them")
+    return ExitCode.MET if several else ExitCode.NOTHING_SELECTED

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated
@@ -15,9 +14,8 @@ from uictest.analysis import logged_stops
 from uictest.cli import options, recordings, run_display
 from uictest.cli.cases import malformed
 from uictest.cli.options import option, rejected
-from uictest.cli.output import ExitCode, data, message, of_run, terminal_width
+from uictest.cli.output import ExitCode, message, of_run
 from uictest.core import files as file_system
-from uictest.core.document import Lines, Table
 from uictest.core.recording import formats
 from uictest.plans import scenario as scenarios
 from uictest.plans.scenario import yaml
@@ -103,11 +101,6 @@ def log(
     if not named:
         message(f"uictest: {together.without_stop}")
         return ExitCode.NOTHING_SELECTED
-    shown_together = published.content.campaign
-    if shown is options.Format.TEXT and not quiet and shown_together is not None:
-        sections: list[Table | Lines] = [Lines(shown_together.sentences), *shown_together.at("first")]
-        for line in report.titled_lines(sections, terminal_width(sys.stdout)):
-            data(line)
     return of_run(published)
 
 

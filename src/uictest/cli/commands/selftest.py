@@ -8,7 +8,7 @@ from typing import Final
 
 from uictest import report, selftest as known_answers
 from uictest.cli import options
-from uictest.cli.output import ExitCode, data, terminal_width
+from uictest.cli.output import ExitCode, data, output_width
 from uictest.core import files
 
 _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
@@ -34,7 +34,7 @@ def show_findings(
         data(known_answers.findings_json(examination))
     else:
         document = known_answers.finding_document(examination)
-        data("\n".join(report.document_lines(document, terminal_width(sys.stdout))))
+        data("\n".join(report.document_lines(document, output_width(sys.stdout))))
     if junit is not None:
         files.write_to(junit, report.junit_text([known_answers.findings_suite(examination)]))
     return _CODES.get(examination.status, ExitCode.MET)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated
@@ -15,7 +14,7 @@ from uictest.analysis import summaries
 from uictest.cli import options
 from uictest.cli.cases import malformed
 from uictest.cli.options import argument, option
-from uictest.cli.output import ExitCode, append_summary, data, message, terminal_width, warn_of_implausible
+from uictest.cli.output import ExitCode, append_summary, data, message, output_width, warn_of_implausible
 from uictest.cli.run_display import TerminalObserver
 from uictest.core import files
 from uictest.plans import sweeps
@@ -171,45 +170,19 @@ def show_ids(selection: chunked.CaseSelection) -> bool:
     return all(data("\n".join(map(printable, ids))) for ids in selection.id_blocks())
 
 
-def _show_result(result: report.SweepResult, document: str, shown: options.Format, *, quiet: bool) -> None:
-    """Write the result document, or maps, rates and the frontier as text, to stdout.
+def _show_result(finished: runs.FinishedSweep, shown: options.Format, *, quiet: bool) -> None:
+    """Write the result document, or the sweep as text, to stdout; if `quiet`, only what is missed.
 
-    If `quiet`, write only the cases that missed their expectation; annotations list these already.
+    Annotations list that already.
     """
     if shown is options.Format.JSON:
-        data(document.rstrip("\n"))
+        data(finished.document.rstrip("\n"))
         return
     if quiet and shown is options.Format.GITHUB:
         return
-    width = terminal_width(sys.stdout)
-    for line in _missed_lines(result) if quiet else _result_lines(result, width):
-        text = printable(line) if line else line
-        if shown is options.Format.GITHUB:
-            data(report.no_command(text))
-        else:
-            data(text if width is None else "\n".join(report.wrapped_name(text, width)))
-
-
-def _result_lines(result: report.SweepResult, width: int | None = None) -> Iterator[str]:
-    """Yield maps, met cases by parameter, sensitivities and the frontier, a blank line between them.
-
-    Maps and tables keep to `width` characters, None for any width.
-    """
-    for sweep_map in result.maps:
-        yield from report.map_lines(sweep_map, width)
-        yield ""
-    yield from report.titled_lines(report.numbers_of_sweep(result), width)
-    yield from _missed_lines(result)
-    for note in result.notes:
-        yield f"note: {note}"
-
-
-def _missed_lines(result: report.SweepResult) -> Iterator[str]:
-    """Yield the first missed cases, and the number of the others."""
-    for case in result.missed:
-        yield f"{case.outcome}  {case.id}  {runs.reason_missed(case.reason)}"
-    if more := result.cases - result.met - len(result.missed):
-        yield f"and {more} more, see {report.every_case(result.cases)}"
+    content = finished.content
+    for line in report.sweep_lines(content.result, content.manifest, output_width(sys.stdout), quiet=quiet):
+        data(report.no_command(line))
 
 
 class SweepObserver(TerminalObserver):
@@ -295,9 +268,9 @@ def _run_and_show(
     append_summary(lambda: report.append_step_summary(finished.publication))
     if junit is not None:
         files.write_to(junit, finished.publication.junit())
-    _show_result(finished.result, finished.document, shown, quiet=quiet)
+    _show_result(finished, shown, quiet=quiet)
     if shown is options.Format.GITHUB:
-        for line in report.sweep_annotations(finished.result, str(finished.content.manifest.get("file", ""))):
+        for line in report.sweep_annotations(finished.result, finished.content.manifest):
             data(line)
     if not quiet:
         seconds = perf_counter() - started

@@ -12,7 +12,7 @@ from uictest import report, runs
 from uictest.analysis import validation
 from uictest.cli import options
 from uictest.cli.options import argument, option
-from uictest.cli.output import ExitCode, data, message, terminal_width, worst
+from uictest.cli.output import ExitCode, data, message, output_width, worst
 from uictest.cli.run_display import TerminalObserver
 
 Files = Annotated[
@@ -46,7 +46,7 @@ def validate(
     codes = [ExitCode.MET]
     for plan in plans:
         run = runs.run_validation(plan, jobs, trusted, TerminalObserver())
-        place = runs.publish_validation(run.validation, context.obj, output)
+        place = runs.publish_validation(run, context.obj, output)
         _show(run.validation, shown, every_figure=verbose)
         message(f"uictest: {plan.name}: {validation.tally(run.validation)}; validation in {place}")
         codes.append(_code(run))
@@ -58,7 +58,7 @@ def _show(validated: validation.Validation, shown: options.PlainFormat, *, every
         data(validation.validation_json(validated).rstrip("\n"))
         return
     document = validation.validation_document(validated, every_figure=every_figure)
-    data("\n".join(report.document_lines(document, terminal_width(sys.stdout))))
+    data("\n".join(report.document_lines(document, output_width(sys.stdout))))
 
 
 def _code(run: runs.ValidationRun) -> ExitCode:

@@ -3,6 +3,7 @@ from .catalogue import (
     STOP_COLUMNS as STOP_COLUMNS,
     WHEELSET_COLUMNS as WHEELSET_COLUMNS,
     column_unit as column_unit,
+    measure_of_column as measure_of_column,
     stop_column_values as stop_column_values,
     wheelset_column_values as wheelset_column_values,
     without_wheelset as without_wheelset,

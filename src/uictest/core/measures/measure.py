@@ -14,6 +14,9 @@ from uictest.core.units import KINDS
 Course = Literal["grows", "falls", "settles"]
 """What a value can do while the stop goes on: only grow, only fall, or no more once there is one."""
 
+Better = Literal["smaller", "larger", "neither"]
+"""Which value of a measure is the better one, of two stops under the same conditions."""
+
 When = Literal["throughout", "ends", "end", "never"]
 """When channels must be known: throughout the stop; at the brake command and at its end; at its end; never,
 as no record holds them."""
@@ -204,6 +207,8 @@ class Measure:
         kind: of quantity that its bounds are, a key of :data:`uictest.core.units.KINDS`.
         unit: that a criterion prints value and bounds in; left out, the most usual of the kind.
         course: what the value can do while the stop goes on.
+        better: which of two values says that a train brakes better, or is spared; `neither` for what
+            describes the conditions or the simulation.
         meaning: what it is, in words.
         field: of the record of the stop, or of each wheelset, that holds its value; left out, that of its
             name.
@@ -232,6 +237,7 @@ class Measure:
     kind: str
     unit: str = ""
     course: Course
+    better: Better = "neither"
     meaning: str
     field: str = ""
     absent: str = ""

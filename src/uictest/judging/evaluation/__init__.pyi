@@ -94,6 +94,7 @@ from .result import (
 )
 from .verdict import (
     AppliedDefinition as AppliedDefinition,
+    Layer as Layer,
     OverStops as OverStops,
     ReadVerdict as ReadVerdict,
     Sensitivity as Sensitivity,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
-from uictest.core.document import Column, Document, Lines, Table
+from uictest.core.document import Block, Column, Document, Lines, Section, Table
 from uictest.report.words import printable
 
 _LONGEST: Final = 300
@@ -30,16 +30,27 @@ def document_markdown(document: Document, limit: int | None = None, level: int =
     for section in document.sections:
         heading = f"\n{'#' * (level + 1)} {prose(section.title)}\n" if section.title else ""
         room = None if limit is None else limit - len(f"{text}{heading}\n".encode()) - _RESERVE
-        body = _lines(section, room) if isinstance(section, Lines) else _table(section, room)
+        body = _section(section, room)
         text += f"{heading}\n{body}" if body else ""
-        content = section.sentences if isinstance(section, Lines) else section.rows and section.for_people
-        left_out += bool(content) and not body
+        left_out += not body and bool(_section(section, None))
     return text + (f"\n{left_out} more in `{document.all_in}`.\n" if left_out else "")
 
 
-def _lines(section: Lines, room: int | None) -> str:
-    text = "".join(f"- {prose(sentence)}\n" for sentence in section.sentences)
+def _section(section: Section, room: int | None) -> str:
+    """Return a section without its title; empty where it has no content, or no room."""
+    if isinstance(section, Table):
+        return _table(section, room)
+    if isinstance(section, Lines):
+        text = "".join(f"- {prose(sentence)}\n" for sentence in section.sentences)
+    else:
+        text = "\n".join(map(_block, section.blocks))
     return text if room is None or len(text.encode()) <= room else ""
+
+
+def _block(block: Block) -> str:
+    facts = "".join(f"- {prose(line)}\n" for line in block.lines)
+    command = f"\n{code(block.command, longest=None)}\n" if block.command else ""
+    return f"**{prose(block.heading)}**\n\n{facts}{command}"
 
 
 def _table(table: Table, room: int | None) -> str:
@@ -89,12 +100,11 @@ def _row(cells: Iterable[str]) -> str:
     return f"| {' | '.join(cells)} |\n"
 
 
-def code(text: str) -> str:
+def code(text: str, longest: int | None = _LONGEST) -> str:
     """Return a text as a code span that shows it letter by letter, also inside a table."""
     # In a code span nothing can be escaped, but a bar ends a cell: it is spelled out like what is invisible.
-    shown = _cut_text(printable(text)).replace("|", "\\x7c")
-    longest = max(map(len, _BACKTICKS.findall(shown)), default=0)
-    fence = "`" * (longest + 1)
+    shown = _cut_text(printable(text), longest).replace("|", "\\x7c")
+    fence = "`" * (max(map(len, _BACKTICKS.findall(shown)), default=0) + 1)
     padding = " " if shown.startswith("`") or shown.endswith("`") else ""
     return f"{fence}{padding}{shown}{padding}{fence}" if shown else ""
 
@@ -113,5 +123,5 @@ def _entity(match: re.Match[str]) -> str:
     return f"&#{ord(match.group())};"
 
 
-def _cut_text(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+def _cut_text(text: str, longest: int | None = _LONGEST) -> str:
+    return text if longest is None or len(text) <= longest else f"{text[: longest - 1]}…"

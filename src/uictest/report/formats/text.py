@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Final
 
-from uictest.core.document import Document, Lines, Table, Tone
+from uictest.core.document import Block, Blocks, Document, Lines, Section, Table, Tone
 from uictest.report.words import printable
 
 GAP: Final = "  "
 """What stands between two columns."""
-_PIECE: Final = re.compile(r"\[?[^\[\s,/_=-]*[\s,/_=-]*")
-"""A part of a name that is not broken: lines end before an opening bracket and after what joins words."""
+_PIECE: Final = re.compile(r"\[?(?:[^\[\s,/_=-]|=(?=[^,]{1,6}(?:,|$)))*[\s,/_=-]*")
+"""A part of a name that is not broken: lines end before an opening bracket, after what joins words, and
+between a key and a value of more than six characters."""
 _COLOURS: Final[dict[Tone, str]] = {"good": "\x1b[32m", "bad": "\x1b[1;31m", "odd": "\x1b[1;35m"}
 _END: Final = "\x1b[0m"
 
@@ -27,19 +29,66 @@ def coloured_text(text: str, tone: Tone | None) -> str:
 def document_lines(document: Document, width: int | None) -> Iterator[str]:
     """Yield the sections in so many characters, None for a stream that is not a terminal."""
     for section in document.sections:
-        if isinstance(section, Lines):
-            yield from map(printable, section.sentences)
-        elif section.rows:
-            yield from table_lines(section, width)
+        yield from section_lines(section, width)
 
 
-def titled_lines(sections: Iterable[Table | Lines], width: int | None) -> Iterator[str]:
+def spaced_lines(document: Document, width: int | None) -> Iterator[str]:
+    """Yield the sections, a blank line before and after each table."""
+    beside_table = None
+    for section in document.sections:
+        lines = list(section_lines(section, width))
+        is_table = isinstance(section, Table)
+        if lines and beside_table is not None and (is_table or beside_table):
+            yield ""
+        yield from lines
+        beside_table = is_table if lines else beside_table
+
+
+def section_lines(section: Section, width: int | None, *, coloured: bool = False) -> Iterator[str]:
+    """Yield a section without its title; sentences are wrapped, commands never."""
+    if isinstance(section, Lines):
+        for sentence in section.sentences:
+            yield from wrapped_sentence(sentence, width)
+    elif isinstance(section, Blocks):
+        for block in section.blocks:
+            yield from _block_lines(block, width, coloured=coloured)
+    elif section.rows:
+        yield from table_lines(section, width, coloured=coloured)
+
+
+def _block_lines(block: Block, width: int | None, *, coloured: bool) -> Iterator[str]:
+    """Yield a block: its heading, and indented its facts and its command."""
+    for line in wrapped_sentence(block.heading, width):
+        yield coloured_text(line, block.tone if coloured else None)
+    for fact in block.lines:
+        yield from wrapped_sentence(fact, width, indent="  ")
+    if block.command:
+        yield f"  {printable(block.command)}"
+
+
+def wrapped_sentence(sentence: str, width: int | None, indent: str = "") -> list[str]:
+    """Return a sentence in lines of at most so many characters, all but the first indented further."""
+    text = f"{indent}{printable(sentence)}"
+    if width is None or len(text) <= width:
+        return [text]
+    further = f"{indent}    "
+    return textwrap.wrap(
+        printable(sentence),
+        width,
+        initial_indent=indent,
+        subsequent_indent=further,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def titled_lines(sections: Iterable[Section], width: int | None) -> Iterator[str]:
     """Yield sections under their titles, a blank line after each."""
     for section in sections:
         if isinstance(section, Lines) and section.sentences:
-            yield from map(printable, section.sentences)
+            yield from section_lines(section, width)
         elif isinstance(section, Table) and section.rows:
-            yield printable(": ".join(filter(None, (section.title, section.basis))))
+            yield from wrapped_sentence(": ".join(filter(None, (section.title, section.basis))), width)
             yield from (f"  {line}" for line in table_lines(section, None if width is None else width - 2))
         else:
             continue
@@ -64,7 +113,8 @@ def table_lines(table: Table, width: int | None, *, coloured: bool = False) -> I
             yield from _aligned_lines(shown)
             hidden.update(dict.fromkeys(left_out))
     if hidden:
-        yield f"not shown for lack of room: {', '.join(hidden)}; {table.more} has all"
+        sentence = f"not shown for lack of room: {', '.join(hidden)}; {table.more} has all"
+        yield from wrapped_sentence(sentence, width)
 
 
 def aligned_rows(rows: Sequence[Sequence[str]]) -> Iterator[str]:
@@ -94,6 +144,7 @@ class _TextColumn:
     is_number: bool = False
     wraps: bool = False
     tones: Sequence[Tone | None] = ()
+    name: str = ""
 
     @property
     def width(self) -> int:
@@ -118,15 +169,26 @@ class _TextColumn:
 def _text_columns(table: Table, *, coloured: bool) -> list[_TextColumn]:
     return [
         _TextColumn(
-            column.title,
+            _narrow_title(column.title, texts) if column.is_number else column.title,
             list(map(printable, texts)),
             column.rank,
             column.is_number,
             column.wraps,
             list(map(column.tone, table.rows)) if coloured and column.tone else (),
+            column.heading.replace("-\n", "").partition("\n")[0],
         )
         for column, texts in table.for_people
     ]
+
+
+_NARROWEST: Final = 9
+"""Characters to which the title of a column of numbers may be wrapped; chosen: most words fit."""
+
+
+def _narrow_title(title: str, texts: Sequence[str]) -> str:
+    """Return the title of a column of numbers in lines that are no wider than its numbers need."""
+    width = max([_NARROWEST, *map(len, texts)])
+    return "\n".join(line for part in title.split("\n") for line in wrapped_name(part, width))
 
 
 def _total_width(columns: Sequence[_TextColumn]) -> int:
@@ -157,10 +219,8 @@ def _fitted_columns(columns: Sequence[_TextColumn], width: int | None) -> tuple[
         if column.rank == 0 or _least_width(remaining, width) <= width:
             break
         remaining.remove(column)
-        left_out.add(column.title)
-    return _wrapped_columns(remaining, width), [
-        column.title.partition("\n")[0] for column in columns if column.title in left_out
-    ]
+        left_out.add(column.name)
+    return _wrapped_columns(remaining, width), [column.name for column in columns if column.name in left_out]
 
 
 def _least_width(columns: Sequence[_TextColumn], width: int) -> int:

@@ -1,15 +1,5 @@
 from .marks import Mark as Mark
-from .plot import (
-    ROW_PIXELS as ROW_PIXELS,
-    Effect as Effect,
-    Plot as Plot,
-    Shape as Shape,
-    dot as dot,
-    forest as forest,
-    row_at as row_at,
-    rows_plot as rows_plot,
-    spanned as spanned,
-)
+from .plot import Effect as Effect, Plot as Plot, forest as forest, spanned as spanned
 from .rendering import case_anchor as case_anchor, fragment as fragment, render as render
 from .run_page import page_html as page_html
 from .stop_plots import (

@@ -9,6 +9,7 @@ from typing import Any, Final, NamedTuple
 from uictest.core import document
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, Column
 from uictest.judging import evaluation
+from uictest.report.behaviour_sentences import behaviour_facts
 from uictest.report.case_conditions import slide_speed
 from uictest.report.case_lines import turns_text
 from uictest.report.content import CaseDescription
@@ -20,6 +21,7 @@ from uictest.report.page.plot import Axis
 from uictest.report.page.rendering import case_anchor, case_fragment
 from uictest.report.page.stop_plots import drawing_of, milliseconds, plot_data, sampling_text, script_json
 from uictest.report.robustness import band_text, drawn_sentence, repeat_sentences
+from uictest.report.summary import case_causes
 from uictest.report.traces.quantities import LOOPS, PANELS, PLOT_QUANTITIES, STRIPS, VENT, WHEELSETS, key_of
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.verdict_sentences import failing_first, real_time_sentences, without_checks_that_hold
@@ -79,7 +81,7 @@ def stop_notes(view: CaseView) -> Iterator[str]:
     if trace.band:
         lowest, _ = next(iter(trace.band.values()))
         part = milliseconds(float(lowest.x[1] - lowest.x[0]))
-        yield f"The band takes the lowest and the highest sample of every {part}."
+        yield f"Band: lowest and highest sample of every {part}."
     labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:
         yield f"Derived from recorded speeds: {', '.join(labels)}."
@@ -95,6 +97,14 @@ def stop_notes(view: CaseView) -> Iterator[str]:
             f"The recording holds {drawn} of {counted:.0f} vents: those shorter than {every} can lie between"
             " two samples."
         )
+
+
+def stop_explanation(view: CaseView) -> list[str]:
+    """Return why a stop came out otherwise than expected; nothing for others."""
+    if view.result.met and not view.differences:
+        return []
+    causes = [f"Cause: {cause}" for cause in case_causes(view.result, view.trace)]
+    return [*case_explanation(view.result, view.differences, briefly=True), *causes]
 
 
 def headline(result: evaluation.CaseResult) -> Iterator[tuple[str, str, str]]:
@@ -254,8 +264,8 @@ def shown_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> dict
 
 
 _FUNCTIONS: Final[tuple[Callable[..., Any], ...]] = (
-    *(case_anchor, case_fragment, case_word, case_explanation, headline, quantity, turns_text),
-    *(drawing_of, stop_json, stop_notes, band_text),
+    *(case_anchor, case_fragment, case_word, stop_explanation, headline, quantity, turns_text),
+    *(drawing_of, stop_json, stop_notes, band_text, behaviour_facts),
     *(repeat_sentences, drawn_sentence, criteria_over_stops, spreads_table, stops_table),
 )
 STOP_WORDS: Final[Mapping[str, Any]] = {

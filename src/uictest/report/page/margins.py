@@ -8,20 +8,21 @@ from typing import Final, NamedTuple
 
 from uictest.judging import evaluation
 from uictest.report.case_lines import NARROW
-from uictest.report.page.marks import Taken, taken_at
+from uictest.report.traces.instants import Taken, taken_at
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.verdict_sentences import (
     MOST_URGENT,
     check_sentence,
-    margin_text,
     missed_by_text,
-    value_and_limits,
+    value_with_limit,
     without_checks_that_hold,
 )
 
 _WORDS: Final = {"pass": "met", "fail": "missed"}
 """Status of a criterion that was judged -> what stands for a margin that is not a share."""
+_MOST_CRITERIA: Final = 10
+"""Columns of the matrix: more would leave no room for the names of the cases."""
 
 
 class Margin(NamedTuple):
@@ -66,7 +67,10 @@ class Margin(NamedTuple):
 
     @property
     def share_text(self) -> str:
-        """The share to spare with its sign and unit; `turns` where a verdict that passes has none."""
+        """The share to spare with its sign and unit; `turns` where a verdict that passes has none.
+
+        More than twice an upper limit is a multiple of it.
+        """
         share = self.to_spare
         if share is None or not self.judged:
             return _WORDS.get(self.verdict.status, "")
@@ -74,28 +78,18 @@ class Margin(NamedTuple):
             return "turns"
         if share == 0.0:
             return "0 %"
+        if share < -100.0 and self.verdict.lower is None:
+            return f"{1.0 - share / 100.0:.3g} × limit"  # noqa: RUF001 - a sign on paper
         return f"{share:+.3g} %" if abs(share) < 1e3 else f"{share:+.0f} %"
 
     @property
     def value_text(self) -> str:
-        """The value next to its limits, with the margin in its unit; the reason where there is no value."""
+        """The value next to its limits, and which wheelsets miss them; the reason where there is no value."""
         verdict = self.verdict
         if verdict.value is None and verdict.reason:
             return verdict.reason
-        margin = f", margin {margin_text(verdict)}" if verdict.margin else ""
-        return f"{value_and_limits(verdict, word='')}{margin}"
-
-    @property
-    def missed_by_text(self) -> str:
-        """Which wheelsets miss it; empty for a criterion of the train."""
-        return missed_by_text(self.verdict, len(WHEELSETS)) if self.verdict.status == "fail" else ""
-
-    @property
-    def worst(self) -> int | None:
-        """The wheelset that misses it most, of those that miss it; None where that is not known."""
-        keeps_all = self.verdict.definition.get("wheelsets") == "all"
-        n = self.taken.wheelset if self.taken else None
-        return n if keeps_all and n in self.verdict.missed_by else None
+        missed_by = missed_by_text(verdict, len(WHEELSETS)) if verdict.status == "fail" else ""
+        return ", ".join(filter(None, (value_with_limit(verdict), missed_by)))
 
 
 class Margins(NamedTuple):
@@ -148,3 +142,30 @@ def margin_share(verdict: evaluation.Verdict) -> float | None:
     if verdict.margin is None or not bound or says_yes:
         return None
     return 100.0 * verdict.margin / bound
+
+
+class Matrix(NamedTuple):
+    """Cases against criteria: the names of the columns, the cells of a case by its id, what has no room."""
+
+    criteria: Sequence[str]
+    cells: Mapping[str, Sequence[Margin | None]]
+    left_out: int
+
+
+def matrix_of(margins: Mapping[str, Margins]) -> Matrix:
+    """Return the matrix of a run; of more criteria than have room those that some case misses stay first.
+
+    A criterion that only says yes, and does so in every case, has no column.
+    """
+    rows = {
+        case_id: {margin.verdict.id: margin for margin in (*of_case.judged, *of_case.not_applicable)}
+        for case_id, of_case in margins.items()
+    }
+    every = [margin for row in rows.values() for margin in row.values()]
+    all_criteria = dict.fromkeys(
+        margin.verdict.id for margin in every if margin.share is not None or margin.kind != "pass"
+    )
+    missed = {margin.verdict.id for margin in every if margin.kind == "fail"}
+    criteria = sorted(sorted(all_criteria, key=lambda criterion: criterion not in missed)[:_MOST_CRITERIA])
+    cells = {case_id: [row.get(criterion) for criterion in criteria] for case_id, row in rows.items()}
+    return Matrix(criteria, cells, len(all_criteria) - len(criteria))

@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Final, Literal, NamedTuple
 
-from uictest.core.measures import MEASURES, ShownWhen
+from uictest.core.measures import ShownWhen
 from uictest.core.units import SIZES, in_unit
 from uictest.judging import evaluation
-from uictest.report.traces.moments import TRAIN, Moments, duration
+from uictest.report.traces.instants import shown_when
+from uictest.report.traces.moments import TRAIN, Moments
 from uictest.report.traces.quantities import PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
-from uictest.report.verdict_sentences import failing_first, limits, value_and_limits
+from uictest.report.verdict_sentences import failing_first, limits, value_with_limit
 from uictest.report.words import number, printable, quantity
 
 _UNITS: Final = {panel.key: panel.unit for panel in PANELS}
@@ -33,7 +34,7 @@ class Mark(NamedTuple):
 
     plot: str
     kind: Kind
-    label: str
+    label: str = ""
     x0: float | None = None
     x1: float | None = None
     y: float | None = None
@@ -47,7 +48,7 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[M
     """Return the marks of every criterion that applied to a stop, those of failing ones first."""
     marks = []
     for verdict in failing_first(verdicts):
-        decided = _shown_when(verdict)
+        decided = shown_when(verdict)
         if decided is None or verdict.status == "not_applicable":
             continue
         for mark in _verdict_marks(verdict, decided, trace):
@@ -68,18 +69,13 @@ def fault_marks(trace: PlotTrace) -> Iterator[Mark]:
             yield Mark(plot, "fault", "" if index else f"fault: {fault.label}", fault.start, fault.end)
 
 
-def _shown_when(verdict: evaluation.Verdict) -> ShownWhen | None:
-    measure = MEASURES.get(verdict.measure)
-    return None if measure is None else measure.decided
-
-
 def _verdict_marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotTrace) -> Iterator[Mark]:
     moments = trace.moments.get(verdict.id, Moments())
     if decided.across:
         yield from _band_marks(verdict, decided)
     elif decided.how == "end":
         if verdict.status != "pass":
-            label = value_and_limits(verdict)
+            label = value_with_limit(verdict)
             if decided.word:
                 speed = trace.curves.get("speed")
                 label = f"{decided.word} {'an unknown speed' if speed is None else f'{speed.y[-1]:.3g} km/h'}"
@@ -95,7 +91,7 @@ def _verdict_marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotT
 def _band_marks(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
     """Yield the band within the bounds of a distance or a time and, unless it passed, the value reached."""
     along: Along = "distance" if decided.along_distance else "time"
-    label = f"{verdict.id}: {limits(verdict, word='')}"
+    label = f"{verdict.id}: {limits(verdict)}"
     yield Mark(decided.across, "band", label, verdict.lower, verdict.upper, along=along)
     if (value := verdict.value) is not None and verdict.status != "pass":
         yield Mark(decided.across, "instant", quantity(value, verdict.unit), value, value, along=along)
@@ -108,7 +104,7 @@ def _span_marks(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moment
         return
     if not decided.level:
         if verdict.status != "pass":
-            label = f"{verdict.id}: {value_and_limits(verdict)}"
+            label = f"{verdict.id}: {value_with_limit(verdict)}"
             yield Mark(decided.plot, "window", label, start, end)
         return
     if start is not None and end is not None:
@@ -166,7 +162,7 @@ def _interval_marks(verdict: evaluation.Verdict, decided: ShownWhen, moments: Mo
     ]
     of_deciding = [interval for interval in intervals if moments.wheelset in (None, interval[3])]
     longest = max(of_deciding, default=None)
-    label = "" if verdict.status == "pass" else f"{verdict.id}: {value_and_limits(verdict)}"
+    label = "" if verdict.status == "pass" else f"{verdict.id}: {value_with_limit(verdict)}"
     if label and (moving_speed := verdict.defined("moving_speed")) is not None:
         label += f", above {quantity(in_unit(moving_speed, 'km/h'), 'km/h')}"
     for interval in intervals:
@@ -191,63 +187,3 @@ def _limit_marks(
 def _units_per_plot_unit(verdict: evaluation.Verdict, plot: str) -> float:
     """Return the number of units of the criterion in one unit of the plot."""
     return SIZES.get(_UNITS[plot], 1.0) / SIZES.get(verdict.unit, 1.0)
-
-
-class Taken(NamedTuple):
-    """From `start` to `end`, s since the brake command, in the plot `plot`; one instant where both are equal.
-
-    `wheelset` is the one that decides; None for a measure of the train. `value` is the height of the instant
-    in the unit of the plot, None where there is none. `begun` is the time of the first sample that shows it,
-    None for `start`: the first that counts as locked or sliding counts from the sample before it on.
-    """
-
-    plot: str
-    start: float
-    end: float
-    wheelset: int | None = None
-    value: float | None = None
-    begun: float | None = None
-
-    @property
-    def seen(self) -> float:
-        """The time at which a cursor shows it."""
-        return self.start if self.begun is None else self.begun
-
-    @property
-    def text(self) -> str:
-        """The instant or the stretch of time, and the wheelset."""
-        return self.times + (f", wheelset {self.wheelset}" if self.wheelset else "")
-
-    @property
-    def times(self) -> str:
-        """The instant or the stretch of time."""
-        return f"{self.start:.4g} s" if self.start == self.end else f"{self.start:.4g} to {self.end:.4g} s"
-
-
-def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
-    """Return the instant at which the value of a criterion was taken; None where no plot shows it."""
-    decided, moments = _shown_when(verdict), trace.moments.get(verdict.id, Moments())
-    if decided is None or verdict.value is None:
-        return None
-    if decided.how == "end":
-        return Taken(decided.plot, trace.end, trace.end)
-    if decided.how == "span":
-        of_part = decided.span is not None or decided.down_to
-        span = moments.span if of_part else (trace.start, trace.end)
-        return None if span is None else Taken(decided.plot, *span)
-    n = moments.wheelset
-    if decided.how == "extreme":
-        if (TRAIN if n is None else n) not in moments.extremes:
-            return None
-        time, height = moments.extremes[TRAIN if n is None else n]
-        return Taken(decided.plot, time, time, n, height)
-    if n is None and MEASURES[verdict.measure].of_wheelsets:
-        return None
-    intervals = [span for k, spans in moments.intervals.items() if n in (None, k) for span in spans]
-    if not intervals:
-        return None
-    first, last = max(intervals, key=duration)
-    if decided.how != "longest":
-        first, last = min(intervals)[0], max(last for _, last in intervals)
-    begun = None if decided.how == "outer" else first + trace.interval
-    return Taken(decided.plot, first, last, n, begun=begun)

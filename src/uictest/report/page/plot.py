@@ -201,13 +201,17 @@ def rows_plot(
 
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """A mean in per cent with its interval; `outer` are wider limits around it, where there are any."""
+    """A mean in per cent with its interval; `outer` are wider limits around it, where there are any.
+
+    `kind` is the class of its dot; empty: filled where the interval leaves out 0.
+    """
 
     name: str
     mean: float
     low: float
     high: float
     outer: tuple[float, float] | None = None
+    kind: str = ""
 
 
 _WIDEST_FOREST: Final = 200.0
@@ -238,7 +242,8 @@ def forest(effects: Iterable[Effect], words: str, x_title: str) -> Plot | None:
         if effect.outer is not None:
             shapes.append(Shape("outer-limits", level(*effect.outer, y)))
         shapes.append(Shape("interval-line", level(effect.low, effect.high, y)))
-        kind = "effect clear" if effect.low > 0.0 or effect.high < 0.0 else "effect"
+        leaves_out_zero = effect.low > 0.0 or effect.high < 0.0
+        kind = effect.kind or ("effect clear" if leaves_out_zero else "effect")
         effect_words = f"{effect.name}: {mean} ({effect.low:+.3g} .. {effect.high:+.3g})"
         shapes.append(Shape(kind, dot(axis.at(effect.mean), y, 4.0), effect_words))
     return rows_plot(names, shapes, axis.tick_marks(7), words, x_title)

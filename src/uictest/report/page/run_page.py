@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
+import re
 import shlex
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from uictest.judging import evaluation
-from uictest.report.case_conditions import vehicles_text
-from uictest.report.case_lines import MOST_CLOSE, NARROW, close_calls
+from uictest.report.case_lines import MOST_CLOSE, NARROW
 from uictest.report.content import DRAWN, MOST_DRAWN, STOPS, RunContent, drawn_cases, worst_first
 from uictest.report.difference import baseline_summary, differences_table, not_compared_sentences
 from uictest.report.measure_columns import measure_columns
 from uictest.report.page.case_view import STOP_WORDS, CaseView, case_view, shown_parts
-from uictest.report.page.findings import MOST_FINDINGS, closest_of, findings_of, matrix_of, rerun_commands
-from uictest.report.page.margins import margins_of
+from uictest.report.page.margins import margins_of, matrix_of
 from uictest.report.page.rendering import case_anchor, case_fragment, render, series_fragment
 from uictest.report.page.stop_plots import plots_json
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
+from uictest.report.rerun import rerun_commands
+from uictest.report.summary import MOST_GROUPS, RunSummary, run_summary
 from uictest.report.words import CASE_WORDS, counted
 
 
@@ -32,6 +33,9 @@ def page_html(content: RunContent) -> str:
     of_drawn = {view.result.id: view.margins for view in drawn}
     margins = {result.id: of_drawn.get(result.id) or margins_of(result.criteria) for result in results}
     words = [content.word(result) for result in results]
+    summary, started = run_summary(content), _started(content.name)
+    maps = list(maps_of(results))
+    beside = _maps_beside(summary, maps, content)
     missed = next((view for view in drawn if not content.passes(view.result)), None)
     opened = drawn[0] if len(drawn) == 1 else missed
     repeated = [case for case in worst_first(results) if case.repeats and case.id not in drawn_ids]
@@ -41,21 +45,20 @@ def page_html(content: RunContent) -> str:
         command=shlex.join(content.manifest.command),
         drawn=drawn,
         keys={case_id: case_fragment(case_id) for case_id in drawn_ids},
-        findings=list(findings_of(content, margins, commands)),
-        most_findings=MOST_FINDINGS,
-        close=close_calls(results, content.series),
-        margins=margins,
+        summary=summary,
+        groups=list(zip(summary.groups[:MOST_GROUPS], beside, strict=False)),
         most_close=MOST_CLOSE,
-        closest=closest_of(content, margins),
+        fragments={result.id: case_fragment(result.id) for result in results}
+        | {series.id: series_fragment(series.id) for series in content.series},
+        started=started,
         matrix=matrix_of(margins),
         narrow=NARROW,
         **_of_series(content),
         **STOP_WORDS,
         stops_key=STOPS,
-        maps=maps_of(results),
+        maps=[each for each in maps if each not in beside],
         requirements=verified_requirements(results, content.series),
         requirement_tones=REQUIREMENT_TONES,
-        series_fragment=series_fragment,
         opened=case_anchor(opened.result.id) if opened else "",
         not_drawn=_not_drawn(content, drawn_ids),
         **shown_parts([view.result.parts for view in drawn] or [case.parts for case in content.all_results]),
@@ -64,14 +67,26 @@ def page_html(content: RunContent) -> str:
         all_parts_in="results.json",
         words={word: words.count(word) for word in CASE_WORDS if word in words},
         measure_columns=[column for column in measure_columns(results) if column.heading],
-        vehicles=vehicles_text(content.all_results),
         differences_table=differences_table,
         plots=plots_json(),
         with_plots=bool(drawn),
-        running_head=content.name,
+        running_head=" · ".join(filter(None, (content.uictest_version, content.name, started))),
         baseline_lines=[baseline_summary(baseline), *not_compared_sentences(baseline)] if baseline else [],
         repeats_not_drawn=repeated[:DRAWN],
     )
+
+
+def _maps_beside(summary: RunSummary, maps: Iterable[CaseMap], content: RunContent) -> list[CaseMap | None]:
+    """Return the map that stands beside each group: that of its worst case's scenario, once."""
+    scenarios = {result.id: result.scenario for result in content.results}
+    by_scenario = {each.scenario: each for each in maps}
+    return [by_scenario.pop(scenarios.get(group.worst, ""), None) for group in summary.groups[:MOST_GROUPS]]
+
+
+def _started(name: str) -> str:
+    """Return when a run began, from its name: `2026-11-28 11:49 UTC`; empty for another name."""
+    found = re.match(r"(\d{4})(\d\d)(\d\d)T(\d\d)(\d\d)\d\dZ-", name)
+    return "{}-{}-{} {}:{} UTC".format(*found.groups()) if found else ""
 
 
 def _of_series(content: RunContent) -> dict[str, Any]:
@@ -117,16 +132,10 @@ def _not_drawn(content: RunContent, drawn_ids: set[str]) -> str:
         return ""
     if drawn < DRAWN:
         missing = counted(cases - drawn, "case")
-        return f"{missing} not drawn: there is no recording of it here, or the stop failed."
+        return f"No plots for {missing}: not recorded here, or the stop failed."
     lost = len(set(content.drawn_first) - drawn_ids)
-    without = f" (not {lost} of them)" if lost else ""
-    chosen = f"those chosen with --draw{without}, then " if content.drawn_first else ""
-    return (
-        f"{drawn} of {cases} cases are drawn: {chosen}those not as expected, then those with the narrowest "
-        "margins, from every scenario in turn. To have others drawn, and compared, give uictest run the "
-        f"option --draw EXPR with an expression as for -k (at most {MOST_DRAWN} cases); uictest report takes "
-        "it, too, for cases with a recording. Every criterion of every case is in criteria.csv."
-    )
+    without = f" {lost} of those chosen with --draw are not among them." if lost else ""
+    return f"Plots for {drawn} of {cases} cases.{without} More: --draw EXPR (at most {MOST_DRAWN})."
 
 
 class CaseMap(NamedTuple):

@@ -13,8 +13,6 @@ from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observ
 from uictest.report.page.plot import ROW_PIXELS, Axis, Label, Plot, Shape, dot, row_at, rows_plot
 from uictest.report.page.rendering import series_anchor
 from uictest.report.series_report import (
-    JudgedCriterion,
-    bypassed_is_better,
     comparison_table,
     count_sentences,
     criteria_of,
@@ -22,7 +20,6 @@ from uictest.report.series_report import (
     not_counted_sentences,
     value_with_interval,
 )
-from uictest.report.verdict_sentences import MOST_URGENT
 from uictest.report.words import percent, result_word, tone
 
 _DISTANCE: Final = "corrected_distance_m"
@@ -39,21 +36,6 @@ def series_badge(result: SeriesResult) -> str:
 def series_tone(result: SeriesResult) -> Tone:
     """Return the tone of the badge; one that is not certain has its own."""
     return "odd" if is_uncertain(result) else tone(result_word(result))
-
-
-_OF_PAGE: Final[tuple[Column[JudgedCriterion], ...]] = (
-    Column(heading="from", text=lambda judged: judged.criterion.place),
-    Column(heading="measure", text=lambda judged: judged.criterion.verdict.definition.get("measure", "")),
-    Column(heading="requirements", text=lambda judged: ", ".join(judged.criterion.verdict.requirements)),
-)
-"""Columns of criteria that other formats have no room for."""
-
-
-def criteria_table(result: SeriesResult) -> Table:
-    """Return the criteria of a series, failing ones first."""
-    criteria = criteria_of(result)
-    urgent_first = sorted(criteria.rows, key=lambda row: MOST_URGENT.index(row.criterion.verdict.status))
-    return Table((*criteria.columns, *_OF_PAGE), urgent_first)
 
 
 def measures_table(result: SeriesResult) -> Table:
@@ -148,8 +130,8 @@ def _marked_distances(
 
 
 _FUNCTIONS: Final[tuple[Callable[..., Any], ...]] = (
-    *(bypassed_is_better, comparison_table, count_sentences, not_counted_sentences, percent),
-    *(series_anchor, series_badge, series_tone, criteria_table, measures_table, distance_plots),
+    *(comparison_table, criteria_of, count_sentences, not_counted_sentences, percent),
+    *(series_anchor, series_badge, series_tone, measures_table, distance_plots),
 )
 SERIES_WORDS: Final = {function.__name__: function for function in _FUNCTIONS}
 """What the template of series shows them by."""

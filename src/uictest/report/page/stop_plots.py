@@ -37,11 +37,9 @@ _ON_PAPER: Final = ("speed", "pressure")
 """Keys of the panels of a stop that are drawn; the valves stand between them."""
 _HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below it
 _BELOW: Final = 32  # the panels: tick labels and what they count
-_LANE: Final = 12  # of a lane of a strip
-_COLUMN: Final = 4.0
+_LANE: Final = 12  # of a lane of a strip; `.magnet` in the style sheet has the width of its bars
+_COLUMN: Final = 5.0
 """Pixels: of every column of a line only the extremes are kept, so that no peak is lost."""
-_BAR_HEIGHT: Final = 0.34
-"""Of a lane."""
 _LEAST_BAR_WIDTH: Final = 1.0
 """Pixels: a vent however short is seen."""
 
@@ -67,8 +65,14 @@ class Drawing(NamedTuple):
 
 def drawing_of(trace: PlotTrace) -> Drawing:
     """Return the drawing of a stop; quantities that it has no series of are left out."""
+    # On paper cylinder pressures would hide those of the tanks, which they follow.
+    hidden = "cylinder_pressure" if "tank_pressure_1" in trace.curves else ""
+    panels = [panel for panel in PANELS if panel.key in _ON_PAPER]
+    if hidden:
+        panels = [panel._replace(title=panel.title.partition(" (cylinder")[0]) for panel in panels]
     return panels_over_time(
-        trace, [(panel, panel_lines(panel)) for panel in PANELS if panel.key in _ON_PAPER]
+        trace,
+        [(panel, [line for line in panel_lines(panel) if key_of(line.series) != hidden]) for panel in panels],
     )
 
 
@@ -113,17 +117,20 @@ def _strip_panels(strip: Strip, trace: PlotTrace, time: Axis, top: float) -> Ite
     paths = []
     for lane in strip.lanes:
         for n in WHEELSETS:
-            upper, lower = (row.at(n + lane.offset + side * _BAR_HEIGHT / 2) for side in (-1, 1))
-            bars = ""
+            bars, at = "", 0.0
             for start, end in trace.valve_spans(n, lane.states):
-                left, right = time.at(start), time.at(end)
-                width = max(right - left, _LEAST_BAR_WIDTH)
-                bars += f"M{left:.1f} {upper:.1f}h{width:.4g}V{lower:.1f}H{left:.1f}z"
+                left = round(time.at(start), 1)
+                width = round(max(time.at(end) - left, _LEAST_BAR_WIDTH), 1)
+                bars += f"m{left - at:.4g} 0h{width:g}"
+                at = left + width
             if bars:
-                paths.append((f"magnet {lane.label} role-wheelset-{n}", bars))
-    if paths:
+                paths.append(
+                    (f"magnet {lane.label} role-wheelset-{n}", f"M0 {row.at(n + lane.offset):.1f}{bars}")
+                )
+    if paths or (strip.lanes and trace.states):
         ticks = [(row.at(height), label) for height, label in strip.rows]
-        yield DrawnPanel(strip.key, strip.heading, top, bottom, time.tick_marks(10), ticks, paths)
+        heading = strip.heading if paths else f"{strip.title}: no command in this stop"
+        yield DrawnPanel(strip.key, heading, top, bottom, time.tick_marks(10), ticks, paths)
 
 
 def area_over_time(x: Series, low: Series, high: Series) -> str:
@@ -150,8 +157,8 @@ def path_over_time(x: Series, y: Series) -> str:
 
 def _stroke_path(points: NDArray[np.int64]) -> str:
     steps = np.diff(points, axis=0)
-    moves = [f"l{across} {up}" for across, up in steps[steps.any(axis=1)].tolist()]
-    return f"M{points[0, 0]} {points[0, 1]}" + "".join(moves)
+    moves = " ".join(f"{across} {up}" for across, up in steps[steps.any(axis=1)].tolist())
+    return f"M{points[0, 0]} {points[0, 1]}" + (f"l{moves.replace(' -', '-')}" if moves else "")
 
 
 _COMPARED: Final = (
@@ -218,20 +225,24 @@ def plot_data(
         "start": trace.start,
         "end": trace.end,
         "over_time": packed({**trace.curves, **states}, trace.interval, steps),
-        "marks": [mark._asdict() for mark in marks],
+        "marks": [_mark_form(mark) for mark in marks],
     }
+
+
+def _mark_form(mark: Mark) -> dict[str, Any]:
+    """Return the fields of a mark that are not as they usually are; the script knows the others."""
+    fields = {
+        name: value for name, value in mark._asdict().items() if value != Mark._field_defaults.get(name)
+    }
+    return {name: round(value, 6) if isinstance(value, float) else value for name, value in fields.items()}
 
 
 def sampling_text(trace: PlotTrace) -> str:
     """Return the sentence on how the points of a line were taken from the stop."""
     is_long = trace.interval * MOST_SAMPLES < trace.end - trace.start
     part = milliseconds((trace.end - trace.start) / BINS)
-    drawn = f" Drawn through the smallest and the largest sample of every {part}." if is_long else ""
-    rounded = (
-        "Samples are rounded to a fifth of the last decimal that the cursor shows; instants in the plots are"
-        " those of samples, while a simulation measures at every step."
-    )
-    return f"Sampled every {milliseconds(trace.interval)}.{drawn} {rounded}"
+    drawn = f", drawn through the smallest and the largest of every {part}" if is_long else ""
+    return f"Sampled every {milliseconds(trace.interval)}{drawn}. Criteria use every step."
 
 
 def milliseconds(seconds: float) -> str:
@@ -272,7 +283,7 @@ def packed(
         *(_scaled_differences(curve.y, y_scales[name]) for name, curve in curves.items()),
     ]
     data = np.concatenate(parts).astype("<i2") if parts else np.zeros(0, "<i2")
-    deflated = zlib.compress(data.view(np.uint8).reshape(-1, 2).T.tobytes(), 6)
+    deflated = zlib.compress(data.view(np.uint8).reshape(-1, 2).T.tobytes(), 9)
     return {
         "grids": [{"count": len(x), "scale": x_scales[key]} for key, x in grids.items()],
         "lines": {

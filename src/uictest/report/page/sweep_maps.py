@@ -121,7 +121,9 @@ def _of_verdicts(cells: MapCells, *, by_outcome: bool) -> Callable[[int, int], _
         text = share_words(met, cases)
         if by_outcome:
             text = next((name for name, counts in cells.outcomes.items() if counts[row, column]), "")
-        return text, "none-met" if not met else "all-met" if met == cases else "mixed", ""
+        if not met:
+            return text, "none-met" if cells.valid[row, column] else "no-test", ""
+        return text, "all-met" if met == cases else "mixed", ""
 
     return shown
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Final
+from collections.abc import Mapping
 
 from uictest.report.case_conditions import controller_text
 from uictest.report.page.case_view import STOP_WORDS, case_view, shown_parts
@@ -13,15 +12,18 @@ from uictest.report.page.stop_plots import plots_json
 from uictest.report.page.sweep_lines import cell_lines, frontier_plot, trend_plot
 from uictest.report.page.sweep_maps import maps_of_pair
 from uictest.report.sweep.cases import SummaryRows, reported_columns
-from uictest.report.sweep.result import OutcomeCount, SweepContent, SweepResult
+from uictest.report.sweep.result import SweepContent, SweepResult
 from uictest.report.sweep.sweep_maps import MOST_PARAMETERS, MapCells, cells_of_maps, map_cells, mapped_pairs
-from uictest.report.sweep.sweep_sentences import command_alone, share_words, sweep_tally, swept_words
-from uictest.report.sweep.sweep_tables import frontier_table, notable_table, sensitivity_table
+from uictest.report.sweep.sweep_sentences import (
+    command_alone,
+    missed_blocks,
+    sweep_tally,
+    swept_words,
+    where_met,
+)
+from uictest.report.sweep.sweep_tables import frontier_table, sensitivity_table, short_rates
 from uictest.report.sweep.values import DrawnInterval
 from uictest.report.words import printable
-
-_MOST_VALUES: Final = 40
-"""Values of a parameter that get a bar each. Chosen."""
 
 
 def sweep_page_html(content: SweepContent) -> str:
@@ -56,6 +58,7 @@ def sweep_page_html(content: SweepContent) -> str:
         )
         for pair, lines_of_pair in zip(cells, lines, strict=True)
     ]
+    of_two = len(result.varied) == 2 and maps and maps[0]  # then the map says it
     frontier = result.frontier
     return render(
         "sweep.html.j2",
@@ -70,10 +73,9 @@ def sweep_page_html(content: SweepContent) -> str:
         maps=[pair for pair in maps if pair],
         maps_left_out=maps_left_out(content),
         lines=[pair for pair in lines if pair],
-        rates={} if len(result.varied) == 2 and maps and maps[0] else _shown_rates(result),
+        rates=[] if result.met == result.cases or of_two else list(short_rates(result)),
         frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
         trends={} if any(lines) else _trend_plots(result),
-        notable=notable_table(result),
         sensitivities=sensitivity_table(result),
         drawn=drawn,
         keys=keys,
@@ -87,7 +89,8 @@ def sweep_page_html(content: SweepContent) -> str:
         with_plots=bool(drawn),
         running_head=result.name,
         alone=command_alone(content.manifest),
-        share_words=share_words,
+        where_met=where_met(result),
+        missed=missed_blocks(result, content.manifest),
     )
 
 
@@ -116,13 +119,6 @@ def _stops_in(
         if case.id in fragments and row is not None and column is not None:
             stops[row, column] = fragments[case.id]
     return stops
-
-
-def _shown_rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
-    """Return the cases met by value, of parameters with few values; none where all cases are met."""
-    if result.met == result.cases:
-        return {}
-    return {key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES}
 
 
 def _trend_plots(result: SweepResult) -> dict[str, list[Plot]]:

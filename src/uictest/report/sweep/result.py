@@ -84,6 +84,8 @@ class SurveyStep:
     unknown: tuple[str, ...] = ()
 
 
+VALID: Final = ("pass", "fail")
+"""Outcomes of cases that are valid tests."""
 MET: Final = "met"
 """Name of the map of cases that met their expectation; the other maps have names of measures."""
 
@@ -143,6 +145,7 @@ class SweepMap:
         means: mean of the measure in each cell, None where no case has it.
         met: number of cases that met their expectation.
         cases: number of cases.
+        valid: number of cases that are valid tests; None where an older version wrote the result.
         known: number of cases that have the measure; None where the map was read from a file.
     """
 
@@ -152,6 +155,7 @@ class SweepMap:
     means: list[list[float | None]]
     met: list[list[int]]
     cases: list[list[int]]
+    valid: list[list[int]] | None = None
     known: Annotated[list[list[int]] | None, Field(exclude=True)] = None
 
     @property

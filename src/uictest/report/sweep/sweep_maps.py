@@ -10,8 +10,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.report.formats.text import wrapped_sentence
 from uictest.report.sweep.cases import ReportedColumns, SummaryRows
-from uictest.report.sweep.result import SweepMap, SweepResult
+from uictest.report.sweep.result import VALID, SweepMap, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, WrittenValue, range_label
 from uictest.report.words import measure_words
 
@@ -80,6 +81,7 @@ class MapCells:
         columns: the parameter across.
         cases: number of cases.
         met: number of cases that met their expectation.
+        valid: number of cases that are valid tests.
         outcomes: number of cases by outcome; empty where only a result without them is known.
         means: mean of each measure over the cases that have it, NaN where none has.
     """
@@ -88,6 +90,7 @@ class MapCells:
     columns: CellAxis
     cases: Counts
     met: Counts
+    valid: Counts
     outcomes: Mapping[str, Counts]
     means: Mapping[str, NDArray[np.float64]]
 
@@ -111,7 +114,8 @@ def folded(sweep_map: SweepMap, most_rows: int = MOST_SHOWN, most_columns: int |
     """
     rows = fold(len(sweep_map.rows.values), most_rows)
     columns = fold(len(sweep_map.columns.values), most_columns or most_rows)
-    cases, met = (np.array(counts, np.int64) for counts in (sweep_map.cases, sweep_map.met))
+    numbers = sweep_map.cases, sweep_map.met, sweep_map.valid or sweep_map.cases
+    cases, met, valid = (np.array(counts, np.int64) for counts in numbers)
     means = np.array(sweep_map.means, float)
     if len(rows) < len(sweep_map.rows.values) or len(columns) < len(sweep_map.columns.values):
         known = np.where(np.isfinite(means), sweep_map.known or cases, 0)
@@ -119,12 +123,12 @@ def folded(sweep_map: SweepMap, most_rows: int = MOST_SHOWN, most_columns: int |
             _summed_cells(cells, rows, columns) for cells in (np.nan_to_num(means) * known, known)
         )
         means = total / np.where(known > 0, known, np.nan)
-        cases, met = (_summed_cells(counts, rows, columns) for counts in (cases, met))
+        cases, met, valid = (_summed_cells(counts, rows, columns) for counts in (cases, met, valid))
     row_axis, column_axis = (
         _cell_axis(axis.parameter, axis.values, groups)
         for axis, groups in ((sweep_map.rows, rows), (sweep_map.columns, columns))
     )
-    return MapCells(row_axis, column_axis, cases, met, {}, {sweep_map.measure: means})
+    return MapCells(row_axis, column_axis, cases, met, valid, {}, {sweep_map.measure: means})
 
 
 def _summed_cells(cells: NDArray[Any], rows: Fold, columns: Fold) -> NDArray[Any]:
@@ -225,11 +229,12 @@ class _Sums:
             for key, groups in zip(self.pair, self.folds, strict=True)
         )
         cases = np.sum([self._zeros(), *self._outcomes.values()], axis=0)
+        valid = np.sum([self._outcomes.get(name, self._zeros()) for name in VALID], axis=0)
         means = {
             measure.name: total / np.where(known > 0, known, np.nan)
             for measure, total, known in zip(self.measures, self._sums, self._known, strict=True)
         }
-        return MapCells(rows, columns, cases, self._met, self._outcomes, means)
+        return MapCells(rows, columns, cases, self._met, valid, self._outcomes, means)
 
 
 def short_label(values: Sequence[SweptValue]) -> str:
@@ -248,23 +253,27 @@ def map_lines(sweep_map: SweepMap, width: int | None) -> Iterator[str]:
         table = list(_text_map_lines(cells, sweep_map))
         if width is None or max(map(len, table)) <= width:
             break
-    what = "share met (# none, 1-9 tenths, . all)" if sweep_map.shows_met else f"mean {sweep_map.measure}"
-    yield f"{what}: {sweep_map.rows.parameter} down, {sweep_map.columns.parameter} across"
+    shares = "share met (. all, 1-9 tenths, # none, ? no valid test)"
+    what = shares if sweep_map.shows_met else f"mean {sweep_map.measure}"
+    about = f"{what}: {sweep_map.rows.parameter} down, {sweep_map.columns.parameter} across"
+    yield from wrapped_sentence(about, width)
     notes = [
         f"{axis.values} values of {axis.parameter} in {len(axis.groups)} {name}"
         for axis, name in ((cells.rows, "rows"), (cells.columns, "columns"))
         if axis.is_folded
     ]
     if notes:
-        yield f"folded: {', '.join(notes)}; tables/map-{sweep_map.measure}.csv has every value"
+        every = f"tables/map-{sweep_map.measure}.csv has every value"
+        yield from wrapped_sentence(f"folded: {', '.join(notes)}; {every}", width)
     yield from table
 
 
 def _text_map_lines(cells: MapCells, sweep_map: SweepMap) -> Iterator[str]:
-    sign = _share_sign if sweep_map.shows_met else "{:.4g}".format
+    means, valid = cells.means[sweep_map.measure].tolist(), cells.valid.tolist()
+    sign = _share_sign if sweep_map.shows_met else lambda mean, _: f"{mean:.4g}"
     texts = [
-        ["" if np.isnan(mean) else sign(mean) for mean in row]
-        for row in cells.means[sweep_map.measure].tolist()
+        ["" if np.isnan(mean) else sign(mean, tests) for mean, tests in zip(*of_row, strict=True)]
+        for of_row in zip(means, valid, strict=True)
     ]
     labels = [range_label(values) for values in cells.rows.groups]
     heads = list(zip(*map(_column_head, cells.columns.groups), strict=True))
@@ -284,6 +293,8 @@ def _column_head(values: Sequence[SweptValue]) -> tuple[str, str]:
     return first.label, "" if len(values) == 1 else f".. {last.label}"
 
 
-def _share_sign(share: float) -> str:
+def _share_sign(share: float, valid: int) -> str:
+    if share == 0.0 and not valid:
+        return "?"
     # Only what is whole is shown as whole: one case of a thousand that misses must be seen.
     return "#123456789."[0 if share == 0.0 else 10 if share == 1.0 else min(max(round(10.0 * share), 1), 9)]

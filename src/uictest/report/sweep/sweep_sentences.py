@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, Final
 
-from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
+from uictest.core.document import Block, Suite, Testcase, TestcaseStatus, Tone, class_name
 from uictest.judging import evaluation
 from uictest.report.case_conditions import deviation_text
 from uictest.report.ci_server import annotation, program_properties, test_properties
@@ -20,8 +20,15 @@ from uictest.report.sweep.result import (
     SweepResult,
 )
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
-from uictest.report.verdict_sentences import counts_text, explanation
-from uictest.report.words import argument, counted, outcome_word, percent, printable, result_word
+from uictest.report.verdict_sentences import (
+    MISSES,
+    MissKind,
+    counts_text,
+    decisive_verdicts,
+    miss_kind,
+    missed_sentence,
+)
+from uictest.report.words import argument, counted, listed, percent, printable
 
 _MOST_LISTED: Final = 3
 """Values that are listed rather than counted; chosen."""
@@ -29,8 +36,6 @@ _MOST_CONDITIONS: Final = 6
 """Conditions outside of what was validated that a note lists before the rest is counted; chosen."""
 _LEAST_BIAS: Final = 1e-4
 """Share below which biases of the survey step are only counted; chosen."""
-MOST_ANNOTATED: Final = 10
-"""GitHub shows ten annotations of one kind per step."""
 
 
 def sweep_tally(result: SweepResult) -> str:
@@ -38,15 +43,114 @@ def sweep_tally(result: SweepResult) -> str:
     return f"{counted(result.cases, 'case')}: {counts_text(result.outcomes, result.cases - result.met)}"
 
 
-def command_alone(manifest: Mapping[str, Any]) -> str:
-    """Return the command that runs one `CASE` of a sweep alone, as the sweep did."""
+OUTCOME_HEADINGS: Final = {"inconclusive": "no data", "skipped": "not judged"}
+"""What a column of counts is called, where not by its outcome."""
+_OUTCOMES: Final[tuple[evaluation.Outcome, ...]] = (
+    *("error", "fail", "invalid", "inconclusive", "skipped", "pass"),
+)
+"""Outcomes of cases that are not as expected, in the order in which they are read."""
+_MOST_CRITERIA: Final = 3
+"""Criteria that a block names of its worst case; chosen."""
+
+
+def where_met(result: SweepResult) -> str:
+    """Return where the cases are as expected, by the parameter that decides most.
+
+    E.g. `11 of 24 cases as expected, by rail.friction: all at 0.12, 0.14; none at 0.03 .. 0.08 (4 values)`.
+    """
+    begin = f"{result.met} of {counted(result.cases, 'case')} as expected"
+    if result.met in (0, result.cases):
+        return begin
+    rates = {key: [count for count in counts if count.cases] for key, counts in result.rates.items()}
+    shares = {key: [_share_word(count) for count in counts] for key, counts in rates.items()}
+    key = max(shares, key=lambda key: sum(word != "in part" for word in shares[key]) / len(shares[key]))
+    counts, words = rates[key], shares[key]
+    if set(words) == {"in part"}:
+        return f"{begin}; no value of {listed(list(shares))} decides alone"
+    found = [
+        f"{word} at {_values_where(counts, [own == word for own in words])}"
+        for word in ("all", "in part", "none")
+        if word in words
+    ]
+    return f"{begin}, by {key}: {'; '.join(found)}"
+
+
+def _share_word(count: OutcomeCount) -> str:
+    return "all" if count.met == count.cases else "in part" if count.met else "none"
+
+
+def _values_where(counts: Sequence[OutcomeCount], holds: Sequence[bool]) -> str:
+    """Return the values at which something holds, neighbours as a range: `0.03 .. 0.06 (3 values), 0.2`."""
+    runs = groupby(zip(counts, holds, strict=True), key=lambda pair: pair[1])
+    return ", ".join(swept_words([count.value for count, _ in run]) for held, run in runs if held)
+
+
+def missed_blocks(result: SweepResult, manifest: Mapping[str, Any]) -> list[tuple[Block, str]]:
+    """Return what is not as expected, by outcome: how many cases, where, the worst, how to run it again.
+
+    Beside each stands the id of that case, empty where none is known.
+    """
+    blocks = []
+    for outcome, count in _missed_counts(result).items():
+        if count > 0:
+            name, line = _example(result, outcome)
+            one, several = MISSES[_kind(result, outcome)]
+            words = f"{counted(count, 'case')} {one if count == 1 else several}"
+            heading = f"{words}{_where(result, outcome)}"
+            command = command_alone(manifest, name) if name else ""
+            tone: Tone = "odd" if outcome == "error" else "bad"
+            blocks.append((Block(heading, [line] if line else [], command, tone), name))
+    return blocks
+
+
+def _missed_counts(result: SweepResult) -> dict[evaluation.Outcome, int]:
+    """Return how many cases are not as expected, by outcome: all cases of a sweep expect the same."""
+    expected = next((case.expect.outcome for case in result.worst), "pass")
+    missed = result.cases - result.met
+    counts = {name: min(result.outcomes.get(name, 0), missed) for name in _OUTCOMES if name != expected}
+    return {name: counts.get(name, missed - sum(counts.values())) for name in _OUTCOMES}
+
+
+def _kind(result: SweepResult, outcome: evaluation.Outcome) -> MissKind:
+    """Return in what way the cases of an outcome are not as expected."""
+    for case in result.worst:
+        if case.outcome == outcome and case.as_expected and not case.met:  # something in it is open
+            return miss_kind(case)
+    return "unexpected" if outcome == "pass" else outcome
+
+
+def _example(result: SweepResult, outcome: str) -> tuple[str, str]:
+    """Return the id of the worst case of an outcome, or of the first known one, and what it misses."""
+    for case in result.worst:
+        if case.outcome == outcome and not case.met:
+            verdicts = decisive_verdicts(case)[:_MOST_CRITERIA]
+            misses = "; ".join(map(missed_sentence, verdicts)) or case.reason
+            return case.id, printable(f"worst {case.id}{misses and f': {misses}'}")
+    for missed in result.missed:
+        if missed.outcome == outcome:
+            return missed.id, printable(f"first {missed.id}{missed.reason and f': {missed.reason}'}")
+    return "", ""
+
+
+def _where(result: SweepResult, outcome: str) -> str:
+    """Return the values of parameters, besides which an outcome does not occur: `: friction 0.02, 0.03`."""
+    wheres = []
+    for key, counts in result.rates.items():
+        holds = [bool(count.outcomes.get(outcome)) for count in counts]
+        if sum(holds) < sum(count.cases > 0 for count in counts):
+            wheres.append(f"{key} {_values_where(counts, holds)}")
+    return f": {', '.join(wheres)}" if wheres else ""
+
+
+def command_alone(manifest: Mapping[str, Any], case: str = "CASE") -> str:
+    """Return the command that runs one case of a sweep alone, as the sweep did."""
     file = argument(str(manifest.get("file", "FILE")))
     words = [word for text in manifest.get("set") or () for word in ("--set", str(text))]
     if (seed := manifest.get("seed")) is not None:
         words += ["--seed", str(seed)]
     # A folder holds the chunks of one selection: not the sweep's own folder, nor that of another case.
     options = f"{shlex.join(words)} " if words else ""
-    return f"uictest sweep {file} {options}-k 'CASE' -o 'alone/CASE'"
+    return f"uictest sweep {file} {options}-k '{printable(case)}' -o 'alone/{printable(case)}'"
 
 
 def swept_words(values: Sequence[SweptValue]) -> str:
@@ -89,54 +193,6 @@ def flip_words(flip: Flip) -> str:
     return f"{before} up to {flip.low.text}, {after} from {flip.high.text}"
 
 
-@dataclass(frozen=True, slots=True)
-class NotableCase:
-    """A case of a sweep as one line of a report.
-
-    Args:
-        id: id of the case.
-        met: whether the case met its expectation.
-        label: verdict for readers, one of `CASE_WORDS`.
-        outcome: outcome of the case.
-        reason: why the case is not met; empty where it is.
-        distance: braking distance, m.
-        margin: narrowest margin over its bound, %.
-        criterion: id of the criterion with this margin.
-    """
-
-    id: str
-    met: bool
-    label: str
-    outcome: str
-    reason: str
-    distance: float | None = None
-    margin: float | None = None
-    criterion: str = ""
-
-
-def notable_cases(result: SweepResult) -> list[NotableCase]:
-    """Return the worst cases and the first missed ones, each once, missed cases first."""
-    cases = []
-    for case in result.worst:
-        margin, criterion = evaluation.narrowest_margin(case)
-        cases.append(
-            NotableCase(
-                *(case.id, case.met, result_word(case), case.outcome),
-                reason="" if case.met else "; ".join(explanation(case)),
-                distance=(case.measures or {}).get("braking_distance_m"),
-                margin=None if margin is None else 100.0 * margin,
-                criterion=criterion,
-            )
-        )
-    listed_ids = {case.id for case in result.worst}
-    for missed in result.missed:
-        if missed.id not in listed_ids:
-            reason = printable(": ".join(filter(None, (f"got {missed.outcome}", missed.reason))))
-            label = outcome_word(missed.outcome, met=False)
-            cases.append(NotableCase(missed.id, False, label, missed.outcome, reason))
-    return sorted(cases, key=lambda case: case.met)
-
-
 def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False) -> Suite:
     """Return the counts of a sweep as testcases; `file` is the sweep file as shown to users."""
     parameter, counts = next(iter(result.rates.items()))
@@ -170,11 +226,11 @@ def _missed_lines(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
         yield from (f"{case.id}: {case.outcome}, {case.reason}" for case in result.missed)
 
 
-def sweep_annotations(result: SweepResult, file: str) -> Iterator[str]:
-    """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
-    missed = [case for case in notable_cases(result) if not case.met]
-    for case in missed[:MOST_ANNOTATED]:
-        yield annotation(file, f"{case.label} {case.id}", case.reason)
+def sweep_annotations(result: SweepResult, manifest: Mapping[str, Any]) -> Iterator[str]:
+    """Yield an `::error` for what is not as expected, by outcome, and a `::notice` with the counts."""
+    file = str(manifest.get("file", ""))
+    for block, _ in missed_blocks(result, manifest):
+        yield annotation(file, block.heading, "; ".join([*block.lines, block.command]))
     yield annotation(file, f"uictest sweep {result.name}", sweep_tally(result), level="notice")
 
 

@@ -1,18 +1,29 @@
-"""The result of a sweep as tables: rates, maps, trends, sensitivities, frontier, notable cases."""
+"""The result of a sweep as tables: rates, maps, trends, sensitivities, frontier."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple, Protocol
+from typing import Any, Final, NamedTuple, Protocol
 
-from uictest.core.document import Cell, Column, Document, Lines, Table, keyed_columns, table_of
+from uictest.core.document import (
+    Blocks,
+    Cell,
+    Column,
+    Document,
+    Lines,
+    Section,
+    Table,
+    keyed_columns,
+    table_of,
+)
 from uictest.judging import evaluation
 from uictest.report import page
 from uictest.report.formats import Publication
 from uictest.report.formats.csv import ParquetRows
+from uictest.report.formats.text import section_lines, titled_lines, wrapped_sentence
 from uictest.report.robustness import firmness_sentences, firmness_table, strongest_numbers_table
-from uictest.report.sweep import SUMMARY
+from uictest.report.sweep import SUMMARY, every_case
 from uictest.report.sweep.result import (
     Circumstances,
     Flip,
@@ -24,20 +35,21 @@ from uictest.report.sweep.result import (
     SweepMap,
     SweepResult,
 )
-from uictest.report.sweep.sweep_maps import folded, is_large, short_label
+from uictest.report.sweep.sweep_maps import folded, is_large, map_lines, short_label
 from uictest.report.sweep.sweep_sentences import (
-    NotableCase,
+    OUTCOME_HEADINGS,
     bar,
     circumstances_words,
     flip_words,
-    notable_cases,
+    missed_blocks,
     share_words,
     sweep_suite,
     sweep_tally,
     swept_words,
+    where_met,
 )
 from uictest.report.sweep.values import SweptValue
-from uictest.report.words import printable, tone
+from uictest.report.words import printable
 
 _MOST_ROWS: Final = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown; chosen."""
@@ -96,16 +108,24 @@ def rates_table(result: SweepResult) -> Table:
             text=lambda rate: share_words(rate.counts.met, rate.counts.cases),
             right=True,
         ),
-        *keyed_columns(result.outcomes, lambda rate: rate.counts.outcomes),
-        Column(
-            heading="not judged", text=lambda rate: str(rate.counts.outcomes.get("skipped") or ""), right=True
-        ),
+        *map(_outcome_column, result.outcomes),
         Column(heading=" ", text=lambda rate: bar(rate.counts.met, rate.counts.cases), rank=1),
     ]
     return Table(columns, rows, "Cases met by value of each parameter", name="rates")
 
 
-def _short_rates(result: SweepResult) -> Iterator[Table | Lines]:
+def _outcome_column(outcome: str) -> Column[_Rate]:
+    """Return the number of cases of an outcome, for people nothing where there are none."""
+    return Column(
+        key=outcome,
+        heading="" if outcome == "pass" else OUTCOME_HEADINGS.get(outcome, outcome),
+        value=lambda rate: rate.counts.outcomes.get(outcome),
+        text=lambda rate: str(rate.counts.outcomes.get(outcome) or ""),
+        right=True,
+    )
+
+
+def short_rates(result: SweepResult) -> Iterator[Table | Lines]:
     """Yield the rates of the parameters with few values, and which have too many for a reader."""
     long = [key for key, counts in result.rates.items() if len(counts) > _MOST_ROWS]
     table = rates_table(result)
@@ -213,28 +233,21 @@ _MEASURES: Final[tuple[Column[MeasureRange], ...]] = (
     Column(heading="mean", value=lambda measure: measure.mean, digits="significant"),
     Column(heading="maximum", value=lambda measure: measure.maximum, digits="significant"),
 )
-_NOTABLE: Final[tuple[Column[NotableCase], ...]] = (
-    Column(heading="verdict", text=lambda case: case.label, tone=lambda case: tone(case.label)),
-    Column(heading="case", text=lambda case: case.id, literal=True),
-    Column(heading="outcome", text=lambda case: case.outcome),
-    Column(heading="distance", unit="m", value=lambda case: case.distance, digits=1),
-    Column(heading="margin", unit="%", value=lambda case: case.margin, digits=1),
-    Column(heading="criterion", text=lambda case: case.criterion),
-    Column(heading="why", text=lambda case: case.reason, wraps=True),
-)
-
-
-def notable_table(result: SweepResult) -> Table:
-    """Return the cases most worth looking at, missed ones first."""
-    return Table(_NOTABLE, notable_cases(result), "Cases most worth looking at", all_in="index.html")
 
 
 class _MapRow(NamedTuple):
-    """A row of a folded map: its values, and how many cases are met, and there are, in each column."""
+    """A row of a folded map: its values, and in each column how many cases are met, are tests, there are."""
 
     values: Sequence[SweptValue]
     met: Sequence[int]
+    valid: Sequence[int]
     cases: Sequence[int]
+
+    def text(self, column: int) -> str:
+        """Return the share of cases met, or that none of them is a valid test."""
+        if self.cases[column] and not self.met[column] and not self.valid[column]:
+            return "no test"
+        return share_words(self.met[column], self.cases[column])
 
 
 def _folded_map(sweep_map: SweepMap) -> Table:
@@ -247,7 +260,7 @@ def _folded_map(sweep_map: SweepMap) -> Table:
     def of_column(index: int, values: Sequence[SweptValue]) -> Column[_MapRow]:
         return Column(
             heading=short_label(values),
-            text=lambda row: share_words(row.met[index], row.cases[index]),
+            text=lambda row: row.text(index),
             right=True,
             tone=lambda row: "good" if row.met[index] == row.cases[index] else "bad",
         )
@@ -256,7 +269,8 @@ def _folded_map(sweep_map: SweepMap) -> Table:
         Column(heading=corner, text=lambda row: short_label(row.values)),
         *(of_column(index, values) for index, values in enumerate(cells.columns.groups)),
     ]
-    rows = list(map(_MapRow, cells.rows.groups, cells.met.tolist(), cells.cases.tolist()))
+    counts = (numbers.tolist() for numbers in (cells.met, cells.valid, cells.cases))
+    rows = list(map(_MapRow, cells.rows.groups, *counts))
     return Table(columns, rows, "Share of cases met, %", basis, all_in=name)
 
 
@@ -277,7 +291,7 @@ def _firmness_sections(nominal: Sequence[evaluation.CaseResult]) -> Iterator[Tab
 
 def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
     """Yield the tables of dependence: rates, sensitivities, the frontier, and firmness."""
-    yield from _short_rates(result)
+    yield from short_rates(result)
     yield sensitivity_table(result)
     if result.frontier is not None:
         yield from _frontier_sections(result.frontier)
@@ -285,12 +299,38 @@ def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
         yield from _firmness_sections(result.nominal)
 
 
-def sweep_summary(result: SweepResult) -> Document:
+def sweep_lines(
+    result: SweepResult, manifest: Mapping[str, Any], width: int, *, quiet: bool = False
+) -> Iterator[str]:
+    """Yield a sweep as text: where it holds, maps, rates and sensitivities, at the end what is missed.
+
+    If `quiet`, only that.
+    """
+    if not quiet:
+        yield from wrapped_sentence(where_met(result), width)
+        for sweep_map in result.maps:
+            yield ""
+            yield from map_lines(sweep_map, width)
+        yield ""
+        yield from titled_lines(numbers_of_sweep(result), width)
+        for note in result.notes:
+            yield from wrapped_sentence(f"note: {note}", width)
+        yield from [""] if result.notes else []
+    blocks = [block for block, _ in missed_blocks(result, manifest)]
+    for block in blocks:
+        yield from section_lines(Blocks([block]), width)
+        yield ""
+    if blocks:
+        yield f"all of them: {every_case(result.cases)}"
+
+
+def sweep_summary(result: SweepResult, manifest: Mapping[str, Any]) -> Document:
     """Return the whole result, what decides first."""
-    sections = [
+    sections: list[Section] = [
+        Lines([where_met(result)]),
+        Blocks([block for block, _ in missed_blocks(result, manifest)]),
         Table(_SWEPT, list(result.rates.items()), result.title or result.name, all_in="results.json"),
         *(_folded_map(sweep_map) for sweep_map in result.maps if sweep_map.shows_met),
-        notable_table(result),
         *numbers_of_sweep(result),
         Table(_MEASURES, result.measures, "Measures", all_in="results.json"),
         Lines(list(result.notes), "Notes"),
@@ -302,7 +342,7 @@ def publication_of_sweep(content: SweepContent) -> Publication:
     """Return a sweep as it is published; its rows are read from its folder when they are needed."""
     result, file = content.result, str(content.manifest.get("file", ""))
     return Publication(
-        document=sweep_summary(result),
+        document=sweep_summary(result, content.manifest),
         tables=[ParquetRows(content.folder / SUMMARY).table("summary"), *sweep_tables(result)],
         page=lambda: page.sweep_page_html(content),
         suites=lambda named: [sweep_suite(result, file, with_properties=named)],

@@ -16,7 +16,7 @@ ORDINARY_CREEP = 10.0
 class PlotQuantity(NamedTuple):
     """A channel as a page shows it: label, unit, how many SI units one of that is, its zero in SI units.
 
-    `decimals` are shown of its values.
+    `decimals` are shown of its values, and samples are rounded to the share `rounding` of the last of them.
     """
 
     label: str
@@ -25,11 +25,12 @@ class PlotQuantity(NamedTuple):
     of_wheelsets: bool = False
     zero: float = 0.0
     decimals: int = 1
+    rounding: float = 0.5
 
     @property
     def step(self) -> float:
-        """To multiples of this a page rounds the samples it holds: a fifth of the last decimal shown."""
-        return 0.2 * 10.0**-self.decimals
+        """To multiples of this a page rounds the samples it holds."""
+        return self.rounding * 10.0**-self.decimals
 
 
 PLOT_QUANTITIES = {
@@ -38,11 +39,13 @@ PLOT_QUANTITIES = {
     "reference_speed": PlotQuantity("reference", "km/h", KILOMETRE_PER_HOUR),
     "wheel_speed": PlotQuantity("wheelset", "km/h", KILOMETRE_PER_HOUR, of_wheelsets=True),
     "slide": PlotQuantity("slide", "%", PERCENT, of_wheelsets=True),
-    "reservoir_pressure": PlotQuantity("reservoir", "bar", BAR, decimals=2),
-    "brake_line_pressure": PlotQuantity("brake line", "bar", BAR, decimals=2),
-    "tank_pressure": PlotQuantity("tank", "bar", BAR, of_wheelsets=True, decimals=2),
-    "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True, decimals=2),
-    "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True, decimals=2),
+    "reservoir_pressure": PlotQuantity("reservoir", "bar", BAR, decimals=2, rounding=1.0),
+    "brake_line_pressure": PlotQuantity("brake line", "bar", BAR, decimals=2, rounding=1.0),
+    "tank_pressure": PlotQuantity("tank", "bar", BAR, of_wheelsets=True, decimals=2, rounding=1.0),
+    "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True, decimals=2, rounding=1.0),
+    "clamping_force": PlotQuantity(
+        "clamping force", "kN", KILONEWTON, of_wheelsets=True, decimals=2, rounding=1.0
+    ),
     "dynamic_torque": PlotQuantity("dynamic brake", "N m", of_wheelsets=True, decimals=0),
     "dynamic_reduction": PlotQuantity("reduction", "%", PERCENT, of_wheelsets=True, decimals=0),
     "track_brake_force": PlotQuantity("track brake", "kN", KILONEWTON),
@@ -57,7 +60,10 @@ PLOT_QUANTITIES = {
     ),
     "valve_command": PlotQuantity("valve", "1", of_wheelsets=True),
 }
-"""Channel, less the number of the wheelset -> how it is shown. The deceleration is derived from the speed."""
+"""Channel, less the number of the wheelset -> how it is shown. The deceleration is derived from the speed.
+
+Pressures and forces are rounded to 0.01 bar and 0.01 kN, finer than sensors of a train.
+"""
 
 OF_RAIL = ("friction", "cleaned_share")
 """Quantities that are drawn where sliding has cleaned the rail; the first also where it varies otherwise."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from uictest.core import recording
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.judging import evaluation
+from uictest.report.traces.behaviour import NOTHING_KNOWN, WspBehaviour, wsp_behaviour
 from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import OF_RAIL, PLOT_QUANTITIES, VENT, WHEELSETS, channel_names
 from uictest.report.verdict_sentences import label_words
@@ -90,6 +91,7 @@ class PlotTrace:
         moments: id of a criterion -> when it was decided.
         faults: when faults were active.
         vents: every vent, from the samples as they were recorded.
+        behaviour: what the WSP did.
         band: of a repeated case, name -> what its stops span: the lower and the upper edge over time.
         band_stops: how many stops these are.
 
@@ -104,6 +106,7 @@ class PlotTrace:
     moments: Mapping[str, Moments] = field(default_factory=dict)
     faults: tuple[FaultSpan, ...] = ()
     vents: tuple[VentCycle, ...] = ()
+    behaviour: WspBehaviour = NOTHING_KNOWN
     band: Mapping[str, tuple[Curve, Curve]] = field(default_factory=dict)
     band_stops: int = 0
 
@@ -148,6 +151,7 @@ def trace_of(
         moments_of(verdicts, record, wheelsets),
         fault_spans(record),
         vent_cycles(time, series),
+        wsp_behaviour(record.channels),
     )
 
 

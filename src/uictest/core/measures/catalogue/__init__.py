@@ -49,6 +49,10 @@ MEASURES: Final = MappingProxyType(measures_in(sys.modules[__name__]))
 """Every measure by name."""
 _COLUMNS: Final = [measure.column for measure in MEASURES.values()]
 
+_BY_COLUMN: Final = {
+    (measure.column.name, measure.of_wheelsets): measure for measure in MEASURES.values() if measure.column
+}
+
 STOP_COLUMNS: Final = MappingProxyType(
     {column.name: column for column in _COLUMNS if isinstance(column, StopColumn)}
 )
@@ -73,6 +77,15 @@ def without_wheelset(name: str) -> tuple[str, str]:
     """Return a column without the number of a wheelset behind it, and that number, empty without one."""
     stem, _, number = name.rpartition("_")
     return (stem, number) if stem in WHEELSET_COLUMNS and number.isdigit() else (name, "")
+
+
+def measure_of_column(name: str, *, of_wheelsets: bool = False) -> Measure | None:
+    """Return the measure of a column of stops, or of wheelsets; None for another name.
+
+    The number of a wheelset may follow the name, which then is that of a column of wheelsets.
+    """
+    stem, wheelset = without_wheelset(name)
+    return _BY_COLUMN.get((stem, bool(wheelset) or of_wheelsets))
 
 
 def stop_column_values(stop: StopMeasures, definition: DefinitionValues) -> dict[str, float]:

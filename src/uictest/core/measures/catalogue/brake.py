@@ -29,6 +29,7 @@ MEASURES = (
         name="valve_actuations",
         kind="number",
         course="grows",
+        better="smaller",
         meaning="openings and closings of the vent",
         decided=ShownWhen(how="outer", plot="valves", field="venting"),
         of_wheelsets=True,
@@ -57,6 +58,7 @@ MEASURES = (
         name="maximum_disc_temperature",
         kind="temperature",
         course="grows",
+        better="smaller",
         meaning="highest temperature of the friction surface of the discs, where it is modelled",
         absent="the temperature of the discs is not modelled: brake.disc_temperature",
         decided=ShownWhen(how="extreme", plot="temperature", field="maximum_disc_temperature", level=True),
@@ -99,6 +101,7 @@ MEASURES = (
         name="sand_laid",
         kind="mass",
         course="grows",
+        better="smaller",
         meaning="sand that the sander of a wheelset laid on one rail",
         absent=_NO_SANDERS,
         decided=ShownWhen(how="end", plot="sand"),
@@ -110,6 +113,7 @@ MEASURES = (
         name="sand_in_30_s",
         kind="mass",
         course="grows",
+        better="smaller",
         meaning="most sand that the sander of a wheelset laid on one rail within 30 s",
         absent=_NO_SANDERS,
         decided=ShownWhen(how="end", plot="sand"),
@@ -121,6 +125,7 @@ MEASURES = (
         name="longest_sanding",
         kind="time",
         course="grows",
+        better="smaller",
         meaning="longest time for which the sander of a wheelset laid sand without a break",
         absent=_NO_SANDERS,
         decided=ShownWhen(how="end", plot="sand"),
@@ -132,6 +137,7 @@ MEASURES = (
         name="reservoir_minimum_pressure",
         kind="pressure",
         course="falls",
+        better="larger",
         meaning="lowest gauge pressure of the reservoir",
         decided=ShownWhen(
             how="extreme", plot="pressure", field="reservoir_minimum_pressure", level=True, word="lowest"
@@ -144,6 +150,7 @@ MEASURES = (
         name="air_consumed",
         kind="normal volume",
         course="grows",
+        better="smaller",
         meaning="air taken from the reservoir, normal volume (20 degC, 1 bar)",
         read=lambda stop, wheelsets, definition: one_value(normal_volume(stop.air_consumed)),
         decided=ShownWhen(how="end", plot="pressure"),
@@ -157,6 +164,7 @@ MEASURES = (
         name="air_vented",
         kind="normal volume",
         course="grows",
+        better="smaller",
         meaning="air vented, normal volume (20 degC, 1 bar)",
         read=lambda stop, wheelsets, definition: value_per_wheelset(
             normal_volume(w.air_vented) for w in wheelsets
@@ -173,6 +181,7 @@ MEASURES = (
         name="reservoir_margin",
         kind="pressure",
         course="falls",
+        better="larger",
         meaning="lowest difference between the pressure of the reservoir and the highest cylinder pressure",
         decided=ShownWhen(
             how="extreme",

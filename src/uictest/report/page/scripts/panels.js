@@ -61,18 +61,19 @@ const marksIn = (marks, key) => (wheelsets, column) =>
 const stripRow = (stop, axis, marks, strip, apart, hidden) => {
   const rows = !apart ? strip.rows : strip.lanes.map((lane) => [1 + lane.offset, lane.label]);
   return {
-    key: strip.key, title: strip.heading, height: Math.max(apart ? 30 : 72, 13 * rows.length),
+    key: strip.key, title: strip.idle ? `${strip.title}: no command in this stop` : strip.heading, height: Math.max(apart ? 30 : 72, 13 * rows.length),
     ticks: new Map(rows), ruled: strip.lanes.length > 0, range: apart ? [0.5, 1.5] : [0.5, 4.5], include: [],
     lines: () => [], marks: marksIn(marks, strip.key),
     bars: (wheelsets) => stripBars(stop, axis, marks, strip, wheelsets, apart, hidden),
   };
 };
 
-/* Panels with the strips below each of them, then the other strips; those with nothing to show left out. */
+/* Panels with the strips below each of them, then the other strips; those with nothing to show left out, but not valves without a command. */
 const rowsOf = (stop, axis, apart, hidden) => {
   const marks = marksOn(stop, axis);
   const strips = common.strips
-    .filter((strip) => stripBars(stop, axis, marks, strip, ROWS, false, new Set()).length)
+    .map((strip) => ({ ...strip, idle: !stripBars(stop, axis, marks, strip, ROWS, false, new Set()).length }))
+    .filter(({ idle, lanes }) => !idle || (lanes.length && ROWS.some((n) => stop.curves[`valve_command_${n}`])))
     .map((strip) => [strip.below, stripRow(stop, axis, marks, strip, apart, hidden)]);
   const shownLines = (panel, wheelsets) =>
     panel.lines.filter((each) => each.series in stop.curves && inColumn(wheelsetOf(each.role), wheelsets) && !hidden.has(each.role));

@@ -24,9 +24,12 @@ const unpacked = async ({ grids, lines, data }) => {
   return Object.fromEntries(curves);
 };
 
+/* A mark comes without what it usually has. */
+const MARK = { label: "", x0: null, x1: null, y: null, wheelset: null, criterion: "", status: "pass", along: "time" };
+
 const stopOf = async (element) => {
-  const { over_time, band, panels = common.panels, ...rest } = json(element);
-  return { ...rest, panels, curves: await unpacked(over_time), band: band ? await unpacked(band) : {} };
+  const { over_time, band, panels = common.panels, marks, ...rest } = json(element);
+  return { ...rest, panels, marks: marks.map((mark) => ({ ...MARK, ...mark })), curves: await unpacked(over_time), band: band ? await unpacked(band) : {} };
 };
 
 /* Values of a stop at a time, as texts. */
