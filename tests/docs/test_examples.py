@@ -24,7 +24,7 @@ from uictest.cli.entry import execute
 from uictest.plans import library, scenario
 from uictest.plans.scenario import Scenario, ScenarioErrors
 from uictest.plans.scenario.yaml import Document, parse, plain, read_file, validated
-from uictest.plans.series import ValidationFile, load_series
+from uictest.plans.series import ValidationFile, load_programme, load_series
 from uictest.plans.series.model import SeriesFile
 from uictest.plans.sweeps import load_sweep
 from uictest.recorded.field_data import load_map
@@ -64,6 +64,7 @@ LOADERS = {
     "channel-map": lambda path: load_map(str(path)),
     "sweep": load_sweep,
     "series": load_series,
+    "programme": load_programme,
     "validation": load_validation_model,
 }
 

@@ -11,9 +11,10 @@ from hypothesis import assume, example, given, strategies as st
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from uictest.core.physics import contact_stiffness, creep_force, highest_creep_force
+from uictest.core.physics import contact_stiffness, creep_force, highest_creep_force, quotient_factor
 from uictest.core.rail_laws import LAWS
-from uictest.plans.scenario import RailCondition, load_part
+from uictest.plans.scenario import FrictionOverSpeed, RailCondition, load_part
+from uictest.plans.scenario.yaml import parse_quantity
 from uictest.rig.rail_assembly import highest_creep_forces, highest_creep_law
 
 from ..stop_bits import bits
@@ -370,3 +371,38 @@ def test_where_friction_does_not_fall_or_the_train_stands_it_is_all_and_of_what_
     samples = np.array([[20.0, 55e3, 0.1], [np.nan, 55e3, 0.1], [20.0, np.nan, 0.1], [20.0, 55e3, np.nan]])
     highest = highest_creep_forces(wet_rail(), *samples.T)
     np.testing.assert_array_equal(np.isnan(highest), [False, True, True, True])
+
+
+@given(speed=st.floats(0.0, 300.0), reference=st.floats(0.0, 300.0))
+def test_the_published_curve_of_friction_over_speed_is_a_quotient_of_straight_lines(speed, reference):
+    def published(kmh):
+        return 7.5 / (kmh + 44.0) + 0.161  # Curtius and Kniffler 1944
+
+    law = FrictionOverSpeed(
+        numerator=parse_quantity("90.58 km/h", "speed"),
+        denominator=parse_quantity("44 km/h", "speed"),
+        reference=parse_quantity(f"{reference!r} km/h", "speed"),
+    )
+    factor = quotient_factor(speed / 3.6, float(law.numerator), float(law.denominator), law.scale)
+    assert factor == pytest.approx(published(speed) / published(reference), rel=1e-4)
+
+
+def test_friction_follows_the_curve_while_the_train_slows_and_is_the_stated_one_at_the_reference(rig):
+    stop = rig.columns("rail.condition=wet-speed", "rail.friction=0.09", "initial_speed=120 km/h")
+    speed = np.asarray(stop["speed"])[1:]
+    expected = 0.09 * (7.5 / (3.6 * speed + 44.0) + 0.161) / (7.5 / 164.0 + 0.161)
+    assert stop["friction"][0] == pytest.approx(np.full(4, 0.09), abs=1e-9)
+    assert np.asarray(stop["friction"])[1:] == pytest.approx(np.repeat(expected[:, None], 4, 1), rel=1e-3)
+
+
+def test_a_friction_that_speed_does_not_change_gives_the_bits_of_the_rail_without_it(rig):
+    even = "rail.friction_over_speed={numerator: 50 km/h, denominator: 50 km/h}"
+    rail = ("rail.condition=wet", "rail.friction=0.09")
+    assert bits(rig.stop(*rail, even)) == bits(rig.stop(*rail))
+
+
+def test_a_reservoir_without_supply_has_only_the_air_that_is_in_it(rig):
+    rail = ("rail.condition=wet", "rail.friction=0.06")
+    fed, alone = (rig.columns(*rail, f"brake.supply={word}")["reservoir_pressure"] for word in ("on", "off"))
+    assert np.all(np.diff(alone) <= 1e-6)
+    assert fed[-1] > alone[-1]

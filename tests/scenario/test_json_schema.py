@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 SHIPPED = [
     path
     for path in sorted((ROOT / "scenarios").glob("*.yaml"))
-    if not {".sweep", ".series"} & set(path.suffixes)
+    if not {".sweep", ".series", ".programme"} & set(path.suffixes)
 ]
 HEAD = {"schema": "uictest/scenario/1", "name": "stop", "initial_speed": "120 km/h"}
 

@@ -54,6 +54,8 @@ def load(
     for path in places:
         if runs.is_series(path):
             raise ValueError(f"{path} is a series: uictest.run judges its stops together")
+        if runs.is_programme(path):
+            raise ValueError(f"{path} is a programme: uictest.run judges its tests")
     cases = runs.load_cases(places, texts, checked_seed(seed), folders)
     return tuple(selected(cases, (), select, tag)[0])
 

@@ -149,7 +149,13 @@ class Results(Sequence[evaluation.CaseResult]):
     @property
     def met(self) -> bool:
         """Whether every case and every series came out as expected."""
-        return all(case.met for case in self) and all(one.met for one in self.series)
+        failed = self._content.campaign is not None and self._content.campaign.failed
+        return all(map(self._content.expected, self)) and all(one.met for one in self.series) and not failed
+
+    @property
+    def tests(self) -> tuple[report.CampaignTest, ...]:
+        """The tests of a programme with what came out: each has `name`, `status` and `lines`; else none."""
+        return () if self._content.campaign is None else self._content.campaign.tests
 
     @property
     def series(self) -> tuple[SeriesResult, ...]:

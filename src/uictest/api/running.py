@@ -55,7 +55,7 @@ def run(
 
     Args:
         what: scenario files, `*.series.yaml` files or folders, one or several [default: the folder
-            `scenarios`]; or cases from :func:`uictest.load`.
+            `scenarios`]; or one `*.programme.yaml`; or cases from :func:`uictest.load`.
         set: dotted key -> value or list of values in every scenario, as for :func:`uictest.load`.
         seed: seed of sensor noise and random rails in every case, 0 to 2^32 - 1.
         repeat: run the stop of every case so many times, 1 to 1000, under its seed and those that follow.
@@ -95,15 +95,17 @@ def run(
     settings = campaign.RunSettings(threads, request, strict=strict)
     validation = None if validated is None else Path(validated)
     batch = runs.batch_of(chosen, of_series, arguments, seed, settings, validated=validation)
+    batch = batch if loaded.programme is None else runs.of_programme(batch, loaded.programme)
     return _in_memory(batch) if output is None else _published(batch, Path(output))
 
 
 class _Loaded(NamedTuple):
-    """Cases and series, and the words of a command line that runs them."""
+    """Cases and series, or a programme and its cases, and the words of a command line that runs them."""
 
     cases: Sequence[scenario.Case]
     series: Sequence[series.Series]
     words: Sequence[str]
+    programme: series.Programme | None = None
 
 
 def _loaded(what: What | None, texts: Sequence[str], seed: int | None, trusted: Sequence[Path]) -> _Loaded:
@@ -113,6 +115,9 @@ def _loaded(what: What | None, texts: Sequence[str], seed: int | None, trusted: 
         raise ValueError("nothing to run: name files or give cases")
     names = [source for source in sources if not isinstance(source, scenario.Case)]
     cases = [source for source in sources if isinstance(source, scenario.Case)]
+    programme = runs.load_programme(as_paths(names), texts, seed, trusted)
+    if programme is not None and not cases:
+        return _Loaded(programme.cases, (), ["run", *map(str, names)], programme)
     if not cases:
         cases, planned = runs.load_cases_and_series(as_paths(names), texts, seed, trusted)
         return _Loaded(cases, planned, ["run", *map(str, names)])

@@ -34,8 +34,9 @@ def of_run(run: runs.Published) -> ExitCode:
     results, series = run.content.results, run.content.series
     if "error" in {*(case.outcome for case in results), *(one.outcome for one in series)}:
         return ExitCode.ERROR
-    met = all(case.met for case in results) and all(one.met for one in series)
-    return ExitCode.MET if met else ExitCode.MISSED
+    met = all(map(run.content.expected, results)) and all(one.met for one in series)
+    failed = run.content.campaign is not None and run.content.campaign.failed
+    return ExitCode.MET if met and not failed else ExitCode.MISSED
 
 
 def worst(*codes: ExitCode) -> ExitCode:

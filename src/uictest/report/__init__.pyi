@@ -14,6 +14,7 @@ from .content import (
     Campaign as Campaign,
     CampaignColumn as CampaignColumn,
     CampaignTable as CampaignTable,
+    CampaignTest as CampaignTest,
     CaseDescription as CaseDescription,
     RunContent as RunContent,
     RunManifest as RunManifest,
@@ -60,6 +61,7 @@ from .formats.text import (
 )
 from .page.plot import overlay_svg as overlay_svg
 from .page.rendering import may_replace as may_replace
+from .programme import MetRange as MetRange, programme_campaign as programme_campaign
 from .robustness import rule_text as rule_text
 from .run_folder import (
     RECORDINGS as RECORDINGS,

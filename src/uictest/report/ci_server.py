@@ -40,7 +40,8 @@ def run_suites(content: RunContent, *, with_properties: bool = False) -> Iterato
     """Yield the testcases of a run, in the order of the other reports.
 
     A case that differs from the baseline is a failure; a case of the baseline that is missing and a series
-    that differs have a failed testcase of their own besides the cases. Cases with a controller from outside
+    that differs have a failed testcase of their own besides the cases. A programme has a testcase for each of
+    its tests, and for each stop that could not be run or fails a check. Cases with a controller from outside
     have a suite of their own for each such program, whose properties say which it is. A series is a suite of
     its own, with one testcase per criterion. With `with_properties` testcases have those by which Polarion
     and Xray know the test case and its requirements.
@@ -54,6 +55,16 @@ def run_suites(content: RunContent, *, with_properties: bool = False) -> Iterato
         )
         for case_id, file in (baseline.beside_cases if baseline else {}).items()
     ]
+    if content.campaign is not None and content.campaign.tests:
+        of_tests = [
+            Testcase("programme", test.name, test.status, test.lines) for test in content.campaign.tests
+        ]
+        stops = [result for result in content.ranked if not content.passes(result)]
+        of_stops = [_testcase(content, result, with_properties) for result in stops]
+        yield _suite(
+            "uictest", [*of_tests, *of_stops, *missing], content.results, (), content.uictest_version
+        )
+        return
     # A run without any case has an empty suite.
     by_program: dict[evaluation.Program | None, list[evaluation.CaseResult]] = {}
     if missing or not (content.results or content.series):

@@ -213,22 +213,57 @@ class CampaignTable:
         return Table(columns, rows, self.title, self.basis, f"campaign_{self.name}", most=_MOST_ROWS)
 
 
+class CampaignTest(NamedTuple):
+    """A test of a programme, as a CI server is told of it.
+
+    Attributes:
+        name: of the test.
+        lines: what came out; the first is the message.
+        status: passed, failure, or skipped where the verdict decides nothing.
+    """
+
+    name: str
+    lines: tuple[str, ...]
+    status: Literal["passed", "failure", "skipped"]
+
+
 @dataclass(frozen=True, slots=True)
 class Campaign:
-    """What the stops of a log show together: in sentences, and in tables."""
+    """What the stops of a log or of a programme show together.
+
+    Args:
+        sentences: in words.
+        tables: in tables.
+        title: heading of both.
+        headline: answer of the whole in one sentence, in place of the counts of cases; empty for a log.
+        tests: tests of a programme, which are the testcases of its run; none for a log.
+    """
 
     sentences: tuple[str, ...] = ()
     tables: tuple[CampaignTable, ...] = ()
+    title: str = "All stops together"
+    headline: str = ""
+    tests: tuple[CampaignTest, ...] = ()
+
+    @property
+    def failed(self) -> bool:
+        """Whether a test failed that decides."""
+        return any(test.status == "failure" for test in self.tests)
 
     def at(self, place: Place) -> list[Table]:
         """Return the tables that stand at a place and have rows."""
         return [table.table for table in self.tables if table.place == place and table.rows]
 
     @property
+    def at_the_top(self) -> list[Table | Lines]:
+        """What a reader sees first: sentences and tables of a log; of a programme tables and sentences."""
+        lines = [Lines(self.sentences, self.title)] if self.sentences else []
+        return [*self.at("first"), *lines] if self.tests else [*lines, *self.at("first")]
+
+    @property
     def sections(self) -> list[Table | Lines]:
         """The sections of a summary."""
-        lines = [Lines(self.sentences, "All stops together")] if self.sentences else []
-        return [*lines, *self.at("first"), *self.at("detail")]
+        return [*self.at_the_top, *self.at("detail")]
 
 
 _CAMPAIGN: Final = TypeAdapter(tuple[Campaign, ...], config=ConfigDict(extra="forbid", defer_build=True))
@@ -352,9 +387,14 @@ class RunContent:
         """Return the quantities of a case that are out of the tolerance of the baseline."""
         return self.baseline.differences.get(case_id, ()) if self.baseline else ()
 
+    def expected(self, result: evaluation.CaseResult) -> bool:
+        """Return whether a case came out as expected; of what ends undecided a programme decides."""
+        of_programme = self.campaign is not None and bool(self.campaign.tests)
+        return result.met or (of_programme and result.outcome == "inconclusive")
+
     def passes(self, result: evaluation.CaseResult) -> bool:
-        """Return whether a case meets its expectation and does not differ from the baseline."""
-        return result.met and not self.differences(result.id)
+        """Return whether a case came out as expected and does not differ from the baseline."""
+        return self.expected(result) and not self.differences(result.id)
 
     def word(self, result: evaluation.CaseResult) -> str:
         """Return the word of a case, from its expectation and the baseline."""
@@ -382,7 +422,9 @@ class RunContent:
 
     @property
     def tally(self) -> str:
-        """The counts of the run."""
+        """The counts of the run, or the answer of its programme."""
+        if self.campaign is not None and self.campaign.headline:
+            return self.campaign.headline
         of_cases = [run_tally(self.results, self.baseline)] if self.results or not self.series else []
         differing = len(self.baseline.series) if self.baseline else 0
         of_series = [series_tally(self.series)] if self.series else []

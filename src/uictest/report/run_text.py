@@ -49,9 +49,8 @@ def run_lines(
     ]
     if summary.subject and not quiet:
         yield from wrapped_sentence(summary.subject, width)
-    if content.campaign is not None and content.campaign.tables and not quiet:
-        campaign = content.campaign
-        yield from titled_lines([Lines(campaign.sentences), *campaign.at("first")], width)
+    if content.campaign is not None and content.campaign.tables and (not quiet or content.campaign.failed):
+        yield from titled_lines(content.campaign.at_the_top, width)
     elif results:
         yield from table_lines(replace(cases_table(content), rows=results[:most]), width, coloured=coloured)
         if most is not None and len(results) > most:
@@ -104,7 +103,9 @@ def _remarks(
 def last_lines(content: RunContent, ending: str, width: int, *, coloured: bool = False) -> list[str]:
     """Return the last sentence of a run: whether it passed, what failed, and how it ended."""
     summary = run_summary(content)
-    word, tone = ("FAILED", "bad") if summary.groups else ("PASSED", "good")
+    word, tone = ("FAILED", "bad") if summary.failed else ("PASSED", "good")
+    if summary.informs and not summary.failed:
+        word, tone = "SHOWN", "odd"
     first, *further = wrapped_sentence(f"{word}: {summary.headline}{ending}", width)
     shown: Tone | None = tone if coloured else None  # type: ignore[assignment]
     return [f"{coloured_text(word, shown)}{first.removeprefix(word)}", *further]

@@ -182,6 +182,8 @@ class RunSummary:
 
     Args:
         headline: the answer in one sentence.
+        failed: whether anything is not as expected.
+        informs: whether a programme is shown that decides nothing but by what failed.
         subject: what was tested: controller and vehicle.
         groups: what is not as expected, errors first.
         allowed: what was missed and is allowed.
@@ -190,6 +192,8 @@ class RunSummary:
     """
 
     headline: str
+    failed: bool
+    informs: bool
     subject: str
     groups: Sequence[FailureGroup]
     allowed: Sequence[str]
@@ -218,12 +222,15 @@ class RunSummary:
 def run_summary(content: RunContent) -> RunSummary:
     """Return the summary of a run."""
     groups = list(_groups(content))
+    of_programme = bool(content.campaign and content.campaign.tests)  # which judges in place of the cases
     return RunSummary(
         headline=_headline(content, groups),
+        failed=bool(groups) or bool(content.campaign and content.campaign.failed),
+        informs=of_programme,
         subject=_subject(content),
         groups=groups,
-        allowed=list(allowed_sentences(content.results)),
-        close=list(_close_groups(close_calls(content.results, content.series))),
+        allowed=[] if of_programme else list(allowed_sentences(content.results)),
+        close=[] if of_programme else list(_close_groups(close_calls(content.results, content.series))),
     )
 
 

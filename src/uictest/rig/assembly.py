@@ -40,6 +40,7 @@ SECTIONS: Final = {
     "motors": "brake.dynamic",
     "track_brake": "brake.track",
     "system": "brake.system",
+    "supply": "brake.supply",
     "air": "brake.system.air",
     "disc": "brake.system.disc",
     "caliper": "rig.caliper",

@@ -97,12 +97,13 @@ def set_commands(p: Parameters, brake: Brake, vehicle: Vehicle) -> None:
     p.command_rates, p.release_rates = rates + blank, releases + blank
 
 
-def set_supply(p: Parameters, system: BrakeSystem) -> None:
-    """Set reservoir and compressor."""
+def set_supply(p: Parameters, system: BrakeSystem, supply: str) -> None:
+    """Set reservoir and compressor, which delivers nothing where `supply` is off."""
     atmosphere = system.air.atmospheric_pressure
     p.reservoir_stiffness = system.air.gas_constant * system.air.temperature / system.reservoir.volume
     p.reservoir_pressure = system.reservoir.initial_pressure + atmosphere
     p.compressor_cut_in = system.compressor.cut_in_pressure + atmosphere
+    p.compressor_delivery = float(system.compressor.delivery) if supply == "on" else 0.0
     p.compressor_cut_out = system.compressor.cut_out_pressure + atmosphere
 
 

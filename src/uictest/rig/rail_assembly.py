@@ -54,6 +54,10 @@ def set_friction(p: Parameters, rail: Rail) -> None:
     """Set the lengths of the friction laws, and how friction varies at random: zero where it does not."""
     p.friction_points = len(friction_along_track(rail))
     p.friction_times = len(friction_factor_over_time(rail))
+    over_speed = rail.friction_over_speed_in_force
+    p.friction_speed_numerator = 1.0 if over_speed is None else float(over_speed.numerator)
+    p.friction_speed_denominator = 1.0 if over_speed is None else float(over_speed.denominator)
+    p.friction_speed_scale = 1.0 if over_speed is None else over_speed.scale
     variation = rail.variation_in_force
     p.varies_friction = float(variation is not None)
     p.variation_points_per_metre = p.variation_persistence = 0.0

@@ -7,6 +7,7 @@ from .batch import (
     with_traces as with_traces,
 )
 from .observer import Advance as Advance, Observer as Observer, available_processors as available_processors
+from .programme import of_programme as of_programme
 from .publishing import (
     Published as Published,
     holds_sweep as holds_sweep,
@@ -33,13 +34,16 @@ from .recorded import (
 from .scenario_files import (
     InvalidInputError as InvalidInputError,
     implausible_trains as implausible_trains,
+    is_programme as is_programme,
     is_series as is_series,
     is_sweep as is_sweep,
     load_cases as load_cases,
     load_cases_and_series as load_cases_and_series,
+    load_programme as load_programme,
     nothing_selected as nothing_selected,
     only_case as only_case,
     place_of_key as place_of_key,
+    programme_files as programme_files,
     read_reference as read_reference,
     reference_of as reference_of,
     scenario_paths as scenario_paths,

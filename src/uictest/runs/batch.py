@@ -37,7 +37,8 @@ class Batch(NamedTuple):
         drawn_first: ids of the cases whose stops a page draws before all others.
         judge: returns what a recorded case came to; None where cases are simulated.
         passed_over: what was found and is not judged, a sentence with the reason each.
-        together: returns what the results of a log show together.
+        together: returns what the results of a log or a programme show together; without an observer, where a
+            run was cut short, without further stops. Raises KeyboardInterrupt.
     """
 
     cases: Sequence[scenario.Case]
@@ -49,7 +50,7 @@ class Batch(NamedTuple):
     drawn_first: Collection[str] = ()
     judge: Callable[[scenario.Case], campaign.CaseRun] | None = None
     passed_over: Sequence[str] = ()
-    together: Callable[[Sequence[evaluation.CaseResult]], report.Campaign] | None = None
+    together: Callable[[Sequence[evaluation.CaseResult], Observer | None], report.Campaign] | None = None
 
     @property
     def all_cases(self) -> list[scenario.Case]:
@@ -72,7 +73,6 @@ class Batch(NamedTuple):
             series=judged,
             drawn_first=self.drawn_first,
             passed_over=self.passed_over,
-            campaign=None if self.together is None else self.together(results),
         )
 
 
@@ -172,12 +172,26 @@ def run_batch(
             maxfail=None if settings.maxfail is None else settings.maxfail - missed,
             show=observer.series,
         )
-    content = batch.content(done.results, judged.results, name, interrupted=judged.interrupted)
-    traces = drawing.finish(content.all_results, settings.jobs, interrupted=judged.interrupted)
-    content = replace(content, traces=traces)
+    together, interrupted = _together(batch, done.results, observer, interrupted=judged.interrupted)
+    content = batch.content(done.results, judged.results, name, interrupted=interrupted)
+    traces = drawing.finish(content.all_results, settings.jobs, interrupted=interrupted)
+    content = replace(content, traces=traces, campaign=together)
     if batch.baseline is not None:
         content = replace(content, baseline=batch.baseline.compare(content))
-    return BatchRun(content, judged.interrupted)
+    return BatchRun(content, interrupted)
+
+
+def _together(
+    batch: Batch, results: Sequence[evaluation.CaseResult], observer: Observer, *, interrupted: bool
+) -> tuple[report.Campaign | None, bool]:
+    """Return what the results show together, and whether an interrupt ended that or the run before."""
+    if batch.together is None:
+        return None, interrupted
+    whole = len(results) == len(batch.cases) and not interrupted
+    try:
+        return batch.together(results, observer if whole else None), interrupted
+    except KeyboardInterrupt:
+        return batch.together(results, None), True
 
 
 class _CaseRunner(NamedTuple):

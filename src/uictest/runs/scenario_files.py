@@ -50,11 +50,13 @@ def load_cases_and_series(
     seed: int | None = None,
     trusted: Sequence[Path] | None = None,
 ) -> tuple[list[scenario.Case], list[series.Series]]:
-    """Return all cases and all series; errors of neither hide those of the others.
+    """Return all cases and all series, or those of a programme; errors of neither hide those of the others.
 
     Raises ScenarioErrors, and InvalidInputError as :func:`load_series`.
     """
     named = scenario_paths(paths)
+    if (programme := load_programme(named, overrides or (), seed, trusted)) is not None:
+        return programme.cases, []
     cases: list[scenario.Case] = []
     planned: list[series.Series] = []
     diagnostics: list[yaml.Diagnostic] = []
@@ -76,6 +78,26 @@ def is_series(path: Path) -> bool:
     return path.name.endswith(scenario.SERIES_SUFFIXES)
 
 
+def is_programme(path: Path) -> bool:
+    """Return whether a path names a programme file."""
+    return path.name.endswith(scenario.PROGRAMME_SUFFIXES)
+
+
+def load_programme(
+    paths: Sequence[Path] | None, overrides: Sequence[str], seed: int | None, trusted: Sequence[Path] | None
+) -> series.Programme | None:
+    """Return the programme that paths name, None where none of them does.
+
+    Raises InvalidInputError where it is not alone, and ScenarioErrors.
+    """
+    named = [library.named_scenario(path) for path in paths or ()]
+    if not any(map(is_programme, named)):
+        return None
+    if len(named) > 1:
+        raise InvalidInputError("a programme is run alone: name no other file beside it")
+    return series.load_programme(named[0], overrides, seed, trusted or ())
+
+
 def is_sweep(path: Path) -> bool:
     """Return whether a path names a sweep file."""
     return path.name.endswith(scenario.SWEEP_SUFFIXES)
@@ -89,6 +111,11 @@ def series_files(paths: Sequence[Path]) -> Iterator[Path]:
 def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
     """Yield the sweep files among the paths, and those below folders that are not hidden, each once."""
     return _files_matching(paths, "*.sweep.y*ml", is_sweep)
+
+
+def programme_files(paths: Sequence[Path]) -> Iterator[Path]:
+    """Yield the programme files among the paths, and those below folders that are not hidden, each once."""
+    return _files_matching(paths, "*.programme.y*ml", is_programme)
 
 
 def _files_matching(paths: Sequence[Path], pattern: str, is_one: Callable[[Path], bool]) -> Iterator[Path]:

@@ -1,4 +1,4 @@
-"""`uictest check`: validate scenario, sweep and series files without simulating them."""
+"""`uictest check`: validate scenario, sweep, series and programme files without simulating them."""
 
 from __future__ import annotations
 
@@ -21,17 +21,20 @@ def check(
     shown: CheckFormat = Format.TEXT,
     strict: StrictCheck = False,
 ) -> ExitCode:
-    """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
+    """Validate scenarios, sweeps, series and programmes. Every error comes with its place."""
     named = runs.scenario_paths(paths)
-    scenarios = [path for path in named if not (runs.is_sweep(path) or runs.is_series(path))]
+    others = (runs.is_sweep, runs.is_series, runs.is_programme)
+    scenarios = [path for path in named if not any(is_other(path) for is_other in others)]
     errors, counts, checked = _scenarios(scenarios, trusted or ())
     sweep_paths, series_paths = list(runs.sweep_files(named)), list(runs.series_files(named))
-    for path in (*sweep_paths, *series_paths):
+    programme_paths = list(runs.programme_files(named))
+    loaders = [(_load_sweep, path) for path in sweep_paths] + [(_load_series, path) for path in series_paths]
+    loaders += [(_load_programme, path) for path in programme_paths]
+    for load, path in loaders:
         if path not in named and not scenario.Roots.of(named, trusted or ()).contain(path):
             errors.append(scenario.link_outside(path))
             continue
         with yaml.collecting(errors, yaml.whole_file(path)):
-            load = _load_sweep if path in sweep_paths else _load_series
             checked += load(path, trusted or ())
     implausible = runs.implausible_trains(checked)
     errors += implausible if strict else ()
@@ -44,8 +47,11 @@ def check(
         data("[]")
     sweeping = report.counted(len(sweep_paths), "sweep") if sweep_paths else ""
     of_series = f"{len(series_paths)} series" if series_paths else ""
+    of_tests = report.counted(len(programme_paths), "programme") if programme_paths else ""
     warned = f", {report.counted(len(implausible), 'warning')}" if implausible else ""
-    message(f"uictest: {' and '.join(filter(None, (counts, sweeping, of_series)))}, no error{warned}")
+    message(
+        f"uictest: {' and '.join(filter(None, (counts, sweeping, of_series, of_tests)))}, no error{warned}"
+    )
     return ExitCode.MET
 
 
@@ -94,6 +100,12 @@ def _location_of_key(case: scenario.Case, key: str) -> yaml.Location:
 
 def _load_series(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
     cases = [case for one in series.load_series(path, trusted=trusted) for case in one.cases]
+    _require_fit(cases)
+    return cases
+
+
+def _load_programme(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
+    cases = series.load_programme(path, trusted=trusted).cases
     _require_fit(cases)
     return cases
 

@@ -82,7 +82,10 @@ def init(
     if shipped:
         paths = library.scenarios().values()
         copies = {what / "scenarios" / path.name: path.read_text("utf-8") for path in paths}
-        _write_new(copies, schemas_below(what / "schema", SchemaKind.SCENARIO, SchemaKind.SERIES))
+        _write_new(
+            copies,
+            schemas_below(what / "schema", SchemaKind.SCENARIO, SchemaKind.SERIES, SchemaKind.PROGRAMME),
+        )
         message(f"Run them with 'uictest run {report.argument(str(what / 'scenarios'))}'.")
     else:
         _write_new({what / SCENARIO: _FIRST_STOP}, schemas_below(what / "schema", SchemaKind.SCENARIO))

@@ -92,7 +92,8 @@ def log(
     request = campaign.RecordingRequest("all")
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=together.add)
     batch = batch._replace(
-        passed_over=[_passed_over_sentence(event) for event in in_log.passed_over], together=together.campaign
+        passed_over=[_passed_over_sentence(event) for event in in_log.passed_over],
+        together=lambda results, _: together.campaign(results),
     )
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)

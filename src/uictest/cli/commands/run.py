@@ -79,7 +79,13 @@ def run(
     report_formats = options.report_formats(formats, "--report", report.FORMATS)
     choice = earlier_runs.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
-    cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
+    programme = runs.load_programme(paths, changes or (), seed, trusted)
+    if programme is not None:
+        _require_whole(suggest_expect=suggest_expect, lf=last_failed, real_time=real_time)
+    if programme is not None:
+        cases, planned = programme.cases, list[series.Series]()
+    else:
+        cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
     selected = select_by_options(cases, expression, tag)
     of_series = select_by_options(planned, expression, tag)
     if last_failed:
@@ -110,6 +116,7 @@ def run(
         baseline=None if accept else accepted,
         drawn_first=drawn_first(selected, of_series, draw),
     )
+    batch = batch if programme is None else runs.of_programme(batch, programme)
     warn_of_implausible(runs.implausible_trains(batch.all_cases))
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     junit_file = options.junit_file(junit, output)
@@ -123,6 +130,13 @@ def run(
     code = worst(of_run(published), compared)
     earlier_runs.keep_newest(code, keep, published.place, "run", spared)
     return code
+
+
+def _require_whole(**options: bool) -> None:
+    """Raise typer.BadParameter for an option that says nothing of a programme."""
+    for name in (name for name, is_set in options.items() if is_set):
+        hint = f"--{name.replace('_', '-')}"
+        raise typer.BadParameter("a programme is run and judged as a whole", param_hint=hint)
 
 
 def _require_paced(cases: Sequence[scenario.Case], planned: Sequence[series.Series]) -> None:

@@ -25,6 +25,7 @@ class SchemaKind(StrEnum):
 
     SCENARIO = "scenario"
     SERIES = "series"
+    PROGRAMME = "programme"
     VALIDATION = "validation"
     BENCH = "bench"
     CHANNEL_MAP = "channel-map"
@@ -99,6 +100,7 @@ def _schema(kind: SchemaKind) -> dict[str, Any]:
     of_files: dict[str, Callable[[], dict[str, Any]]] = {
         SchemaKind.SCENARIO: lambda: scenario.json_schema(),
         SchemaKind.SERIES: lambda: series.series_schema(),
+        SchemaKind.PROGRAMME: lambda: scenario.schema_of(series.ProgrammeFile, "uictest programme"),
         SchemaKind.VALIDATION: lambda: scenario.schema_of(series.ValidationFile, "uictest validation"),
         SchemaKind.BENCH: lambda: scenario.schema_of(rig_bench.BenchRecipe, "uictest bench"),
         SchemaKind.CHANNEL_MAP: lambda: field_data.channel_map_schema(),

@@ -225,7 +225,7 @@ def asks_for_rail(case: scenario.Case, result: CaseResult) -> bool:
     of_validity = [each for each in result.criteria if each.layer == "validity" and each.value is not None]
     missed = any(each.status == "fail" for each in of_validity)
     resolved = case.scenario
-    if not (missed or (of_validity and resolved.test_validity == "rail")):
+    if not (missed or (of_validity and resolved.test_validity != "measured")):
         return False
     return resolved.rig.wsp == "active" and resolved.drag is None and resolved.rail.condition.name != "dry"
 

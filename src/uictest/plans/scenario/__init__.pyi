@@ -120,12 +120,13 @@ from .parts.named_file import (
     read_requirement_list as read_requirement_list,
 )
 from .parts.rail import (
-    CreepCurve as CreepCurve,
+    FrictionOverSpeed as FrictionOverSpeed,
     FrictionProfile as FrictionProfile,
     Rail as Rail,
     RailCondition as RailCondition,
     Sander as Sander,
 )
+from .parts.rail_cleaning import CreepCurve as CreepCurve
 from .parts.vehicle import (
     WHEELSET_NUMBERS as WHEELSET_NUMBERS,
     Coupler as Coupler,
@@ -152,6 +153,7 @@ from .train import (
 )
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.files import (
+    PROGRAMME_SUFFIXES as PROGRAMME_SUFFIXES,
     SERIES_SUFFIXES as SERIES_SUFFIXES,
     SWEEP_SUFFIXES as SWEEP_SUFFIXES,
     Files as Files,

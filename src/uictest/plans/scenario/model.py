@@ -211,8 +211,9 @@ class Scenario(TestFile):
         " skipped: no criterion is to judge the stop.",
         default=PASS,
     )
-    test_validity: Literal["measured", "rail"] = field(
-        "What says whether the stop is a test: the stop itself, or the same with the WSP bypassed, the rail.",
+    test_validity: Literal["measured", "rail", "both"] = field(
+        "What says whether the stop is a test: the stop itself; or the same with the WSP bypassed, the rail;"
+        " both: the stop itself, and the rail is shown beside it.",
         default="measured",
     )
     seed: int = field("Seed of noise and random rails.", default=0, ge=0, le=2**32 - 1, strict=True)

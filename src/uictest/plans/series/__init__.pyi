@@ -14,3 +14,11 @@ from .model import (
     series_of as series_of,
     series_schema as series_schema,
 )
+from .programme import (
+    FRICTION as FRICTION,
+    PlannedTest as PlannedTest,
+    Programme as Programme,
+    ProgrammeFile as ProgrammeFile,
+    RailStops as RailStops,
+    load_programme as load_programme,
+)

@@ -107,6 +107,9 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: P
         numbers = {dotted(key): value.text for key, value in quantities_in(variation)}
         # What the rail was is fitted: nothing of it is left to chance.
         _assign_dotted_key(content, "rail.variation", numbers | {"spread": "0 %"})
+    if case.scenario.rail.friction_over_speed_in_force is not None:  # it is in what was fitted
+        constant = {"numerator": "1 km/h", "denominator": "1 km/h"}
+        _assign_dotted_key(content, "rail.friction_over_speed", constant)
     if fit.pad_factor is not None:
         content.setdefault("brake", {})["system"] = _with_pads(case.scenario, fit.pad_factor.value)
     text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)

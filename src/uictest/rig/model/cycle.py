@@ -22,6 +22,7 @@ from uictest.core.physics import (
     maximum,
     passed_turns,
     passing_rate,
+    quotient_factor,
     remember,
     select,
     speed_of_teeth,
@@ -75,6 +76,12 @@ def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: An
         rail: array of shape (4, n), see :mod:`uictest.rig.model.rail`.
     """
     factor = interpolated(car.time, rail[TIMES], rail[FACTORS], p.friction_times)
+    factor *= quotient_factor(
+        maximum(car.speed, 0.0),
+        p.friction_speed_numerator,
+        p.friction_speed_denominator,
+        p.friction_speed_scale,
+    )
     for i in range(4):
         wheelset = wheelsets[i]
         along = interpolated(car.position - wheelset.behind, rail[PLACES], rail[FRICTIONS], p.friction_points)

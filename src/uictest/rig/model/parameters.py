@@ -212,7 +212,7 @@ class Parameters(
     reservoir_pressure: float  # at the start, Pa
     compressor_cut_in: float  # Pa
     compressor_cut_out: float  # Pa
-    compressor_delivery: float = from_scenario("brake.system.compressor.delivery")  # kg/s
+    compressor_delivery: float  # kg/s
     # air and orifices
     atmospheric_pressure: float = from_scenario("brake.system.air.atmospheric_pressure")  # Pa
     gas_constant: float = from_scenario("brake.system.air.gas_constant")  # J/(kg K)
@@ -377,6 +377,10 @@ class Parameters(
     highest_creep_7: float
     friction_points: int  # points of the friction along the track
     friction_times: int  # points of its factor over time
+    # factor of the friction over the train's speed: physics.quotient_factor
+    friction_speed_numerator: float  # m/s
+    friction_speed_denominator: float  # m/s
+    friction_speed_scale: float
     # friction that varies at random along the track: rig.model.rail
     varies_friction: float  # 0 or 1; where 0, all of the following are zero
     variation_points_per_metre: float

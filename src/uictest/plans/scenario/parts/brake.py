@@ -374,6 +374,9 @@ class Brake(Model):
         default=default("100 %", "share"),
     )
     position: str = field("Brake position; one of the positions of the brake system.", default="R")
+    supply: Literal["on", "off"] = field(
+        "Whether the compressor feeds the reservoir; off: the stop has the air that is in it.", default="on"
+    )
     pad: Annotated[Pad, PartReference(Pad, "constant")] = field(
         "How pad friction varies: a library name, a relative path or an inline mapping."
     )

@@ -1,4 +1,4 @@
-"""The rail: adhesion law (Polach 2005), friction along the track and over time, cleaning, and sand.
+"""The rail: adhesion law (Polach 2005), friction along the track, over time and over speed, and sand.
 
 No publication gives the numbers of sand. Law, share that is kept and largest rate are those of the study
 `sand`, which fits the law to two stops of RSSB T1107 and selects the other two numbers; all else is chosen.
@@ -7,12 +7,22 @@ No publication gives the numbers of sand. Law, share that is kept and largest ra
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
-from pydantic import Discriminator, Field, Tag, create_model
+from pydantic import Discriminator, Field, Tag
 
-from uictest.core.physics import MOST_SAND_POINTS
-from uictest.core.rail_laws import DEFAULT, LAWS, RailLaw
+from uictest.core.physics import MOST_SAND_POINTS, quotient_factor, quotient_scale
+from uictest.plans.scenario.parts.rail_cleaning import (
+    FRICTION_DECAY,
+    FRICTION_RATIO,
+    REDUCTION_ADHESION,
+    REDUCTION_SLIP,
+    Cleaning,
+    Decay,
+    Friction,
+    Share,
+    reductions_out_of_order,
+)
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
@@ -26,12 +36,9 @@ from uictest.plans.scenario.yaml import (
     of_kind,
     optional,
     quantity,
-    quoted,
     schema_field,
 )
 
-Friction = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
-Share = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
 SemiAxis = Annotated[Quantity, of_kind("length", "0.1 mm .. 50 mm")]
 
 
@@ -53,137 +60,6 @@ class Contact(Section):
         """Tangential stiffness (1/4) G pi a b c11 of the contact at the reference load, N."""
         area = math.pi * self.semi_axis_longitudinal * self.semi_axis_lateral
         return 0.25 * self.shear_modulus * area * self.kalker_coefficient
-
-
-_RATIO: Final = "A: friction at infinite slip speed over mu0."
-_DECAY: Final = "B: how fast friction falls with slip speed."
-_ADHESION: Final = "kA: reduction of the creep slope in the area of adhesion."
-_SLIP: Final = "kS: reduction of the creep slope in the area of slip."
-Decay = Annotated[Quantity, of_kind("inverse speed", "0 s/m .. 100 s/m")]
-
-
-class CreepCurve(Section):
-    """The shape of a creep curve (Polach 2005); its friction coefficient stands elsewhere."""
-
-    friction_ratio: Share = field(_RATIO)
-    friction_decay: Decay = field(_DECAY)
-    reduction_adhesion: Share = field(_ADHESION)
-    reduction_slip: Share = field(_SLIP)
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield reduction factors in the wrong order."""
-        yield from super().inconsistencies()
-        yield from _reductions_out_of_order(self)
-
-
-Energy = Annotated[Quantity, of_kind("energy per length", "1 J/m .. 1e9 J/m")]
-_CONTACTS: Final = 2.0
-"""Of a wheelset."""
-
-
-class _Cleaning(Section):
-    """How sliding cleans the rail, for itself and for the wheelsets that follow."""
-
-    energy: Energy = field("Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail.")
-    recovered_friction: Friction = field(
-        "Initial friction coefficient of a clean rail; where the rail is better, its friction stays."
-    )
-    reach: Quantity = quantity(
-        "Length of track over which the cleaned share follows the contact loss.", "length", "1 mm .. 100 m"
-    )
-    carry_over: Quantity = quantity(
-        "Part of what a wheelset has cleaned that the next one finds at the same place.", "number", "0 .. 1"
-    )
-    clean_curve: CreepCurve | None = optional(
-        "Shape of the creep curve of a clean rail, to which that of the condition goes over; the condition's"
-        " own if left out."
-    )
-    loss: Literal["wheelset", "contact"] = field(
-        "Whose loss the energy is compared with: that of both contacts of a wheelset, or of one.",
-        default="wheelset",
-    )
-    spent: Energy | None = optional(
-        "Contact loss per metre that all wheelsets of earlier stops together have spent on the rail; none if"
-        " left out."
-    )
-
-    @property
-    def response(self) -> float:
-        """Cleaned share per contact loss of a wheelset and metre, where little is cleaned, m/J."""
-        return 1.0 / self.energy if self.loss == "wheelset" else 1.0 / _CONTACTS / self.energy
-
-    @property
-    def spent_share(self) -> float:
-        """Share of the rail that earlier stops have cleaned."""
-        if self.spent is None:
-            return 0.0
-        return self.law.settled_share(float(self.spent), float(self.response), self.law_numbers)
-
-    @property
-    def law(self) -> RailLaw:
-        """The law that is named, else the default one."""
-        return LAWS[next(iter(self._named), DEFAULT)]
-
-    @property
-    def law_numbers(self) -> tuple[float, ...]:
-        """The law's own numbers, as its equations take them."""
-        own = getattr(self, self.law.name, None)
-        return tuple(number.convert(getattr(own, name)) for name, number in self.law.numbers.items())
-
-    def clean_part(self, share: float) -> float:
-        """How far friction and creep curve have gone to those of a clean rail, where a share is clean."""
-        return self.law.clean_part(share, self.law_numbers)
-
-    @property
-    def _named(self) -> list[str]:
-        return [name for name in LAWS if getattr(self, name, None) is not None]
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a second law."""
-        yield from super().inconsistencies()
-        for name in self._named[1:]:
-            message = f"two laws are named: {quoted(self._named[0])} and {quoted(name)}"
-            yield Inconsistency((name,), message, "keep one of them")
-
-
-def _section_of(law: RailLaw) -> type[Section]:
-    fields: dict[str, Any] = {
-        name: (Quantity, quantity(number.description, number.kind, f"{number.at_least} .. {number.at_most}"))
-        for name, number in law.numbers.items()
-    }
-    return create_model(
-        f"{law.name.capitalize()}Law",
-        __base__=Section,
-        __doc__=law.description,
-        __module__=__name__,
-        **fields,
-    )
-
-
-_LAW_SECTIONS: Final = {name: _section_of(law) for name, law in LAWS.items() if name != DEFAULT}
-
-
-def __getattr__(name: str) -> type[Section]:
-    """Return the section of a law by its name, where pickle looks for it: sweeps send scenarios around."""
-    for section in _LAW_SECTIONS.values():
-        if section.__name__ == name:
-            return section
-    raise AttributeError(name)
-
-
-if TYPE_CHECKING:
-    Cleaning = _Cleaning
-else:
-    Cleaning = create_model(
-        "Cleaning",
-        __base__=_Cleaning,
-        __doc__=_Cleaning.__doc__,
-        __module__=__name__,
-        **{
-            name: (section | None, optional(f"{LAWS[name].description} A law in place of the usual one."))
-            for name, section in _LAW_SECTIONS.items()
-        },
-    )
 
 
 class Variation(Section):
@@ -217,6 +93,51 @@ class Variation(Section):
         return math.exp(self.deviations * self.log_spread)
 
 
+class FrictionOverSpeed(Section):
+    """How friction falls with the speed of the train: (v + numerator)/(v + denominator), 1 at the reference.
+
+    The curve of Curtius and Kniffler, 7.5/(V + 44) + 0.161 with V in km/h, has this form, with 90.58 km/h in
+    the numerator and 44 km/h in the denominator.
+    """
+
+    largest_factor: ClassVar[float] = 10.0
+    """Friction at standstill over that at the reference, at most; chosen."""
+
+    numerator: Quantity = quantity("Speed added in the numerator.", "speed", "1 km/h .. 1000 km/h")
+    denominator: Quantity = quantity(
+        "Speed added in the denominator; not above that in the numerator.", "speed", "1 km/h .. 1000 km/h"
+    )
+    reference: Quantity = quantity(
+        "Train speed at which friction is as stated.", "speed", "0 km/h .. 600 km/h", default="0 km/h"
+    )
+
+    @property
+    def scale(self) -> float:
+        """Scale that makes the factor 1 at the reference."""
+        return quotient_scale(float(self.reference), float(self.numerator), float(self.denominator))
+
+    @property
+    def highest_factor(self) -> float:
+        """Factor at standstill, where friction is highest."""
+        return quotient_factor(0.0, float(self.numerator), float(self.denominator), self.scale)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a friction that rises with speed."""
+        yield from super().inconsistencies()
+        if self.highest_factor > self.largest_factor:
+            yield Inconsistency(
+                ("denominator",),
+                f"friction at standstill would be {self.highest_factor:.3g} times that at the reference",
+                f"at most {self.largest_factor:g} times is accepted",
+            )
+        if self.numerator < self.denominator:
+            yield Inconsistency(
+                ("numerator",),
+                f"{self.numerator.text} is below {self.denominator.text}: friction would rise with speed",
+                "write the larger speed in the numerator",
+            )
+
+
 class RailCondition(Part):
     """A condition of the rail surface."""
 
@@ -224,27 +145,21 @@ class RailCondition(Part):
 
     schema_id: Literal["uictest/rail/1"] = schema_field("uictest/rail/1")
     friction: Friction = field("Initial friction coefficient mu0, at zero slip speed.")
-    friction_ratio: Share = field(_RATIO)
-    friction_decay: Decay = field(_DECAY)
-    reduction_adhesion: Share = field(_ADHESION)
-    reduction_slip: Share = field(_SLIP)
+    friction_ratio: Share = field(FRICTION_RATIO)
+    friction_decay: Decay = field(FRICTION_DECAY)
+    reduction_adhesion: Share = field(REDUCTION_ADHESION)
+    reduction_slip: Share = field(REDUCTION_SLIP)
     contact: Contact = field("The contact of one wheel.")
     cleaning: Cleaning | None = optional("How sliding cleans the rail; it does not if left out.")
     variation: Variation | None = optional("How friction varies at random; it does not if left out.")
+    friction_over_speed: FrictionOverSpeed | None = optional(
+        "How friction falls with the train's speed; it does not if left out."
+    )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield reduction factors in the wrong order."""
         yield from super().inconsistencies()
-        yield from _reductions_out_of_order(self)
-
-
-def _reductions_out_of_order(curve: CreepCurve | RailCondition) -> Iterator[Inconsistency]:
-    if curve.reduction_slip > curve.reduction_adhesion:
-        yield Inconsistency(
-            ("reduction_slip",),
-            f"kS = {curve.reduction_slip.text} exceeds kA = {curve.reduction_adhesion.text}",
-            "the law needs reduction_slip <= reduction_adhesion <= 1",
-        )
+        yield from reductions_out_of_order(self)
 
 
 MOST_POINTS = 64
@@ -440,6 +355,9 @@ class Rail(Model):
     variation: Variation | None = optional(
         "How friction varies at random along the track; as the condition says if left out."
     )
+    friction_over_speed: FrictionOverSpeed | None = optional(
+        "How friction falls with the train's speed; as the condition says if left out."
+    )
     sand: Sand = field("What sand does on the rail; nothing without sanders.", default=Sand())
     gradient: Quantity = quantity(
         "Gradient of the track, positive uphill.",
@@ -458,7 +376,9 @@ class Rail(Model):
     def highest_friction(self) -> float:
         """The highest friction coefficient anywhere, at any time."""
         over_time = () if self.friction_over_time is None else self.friction_over_time.points
-        return max((at.factor for at in over_time), default=1.0) * max(self._frictions)
+        over_speed = self.friction_over_speed_in_force
+        at_standstill = 1.0 if over_speed is None else over_speed.highest_factor
+        return max((at.factor for at in over_time), default=1.0) * max(self._frictions) * at_standstill
 
     @property
     def friction_as_found(self) -> str:
@@ -472,6 +392,12 @@ class Rail(Model):
     def cleaning_in_force(self) -> Cleaning | None:
         """Cleaning of the rail by sliding; None without it."""
         return self.condition.cleaning if self.cleaning is None else self.cleaning
+
+    @property
+    def friction_over_speed_in_force(self) -> FrictionOverSpeed | None:
+        """How friction falls with speed; None where it does not."""
+        over_speed = self.friction_over_speed
+        return self.condition.friction_over_speed if over_speed is None else over_speed
 
     @property
     def variation_in_force(self) -> Variation | None:

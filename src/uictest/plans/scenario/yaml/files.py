@@ -25,11 +25,13 @@ from uictest.plans.scenario.yaml.tree import Map, Scalar, describe, merge, parse
 
 SCENARIO_SCHEMA: Final = "uictest/scenario/1"
 SERIES_SCHEMA: Final = "uictest/series/1"
+PROGRAMME_SCHEMA: Final = "uictest/programme/1"
 VALIDATION_SCHEMA: Final = "uictest/validation/1"
 BENCH_SCHEMA: Final = "uictest/bench/1"
 _COMMANDS: Final = {
     SCENARIO_SCHEMA: "a scenario is run with `uictest run`",
     SERIES_SCHEMA: "a series is in a file that ends in .series.yaml",
+    PROGRAMME_SCHEMA: "a programme is run with `uictest run`, from a file that ends in .programme.yaml",
     VALIDATION_SCHEMA: "a validation is run with `uictest validate`",
     BENCH_SCHEMA: "a bench test is run with `uictest bench`",
     "uictest/sweep/1": "written for uictest 0.2 or older: now a sweep is a scenario with `extends` (was"
@@ -323,6 +325,7 @@ def nearest_file(path: Path, otherwise: str) -> str:
 
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
 SERIES_SUFFIXES: Final = (".series.yaml", ".series.yml")
+PROGRAMME_SUFFIXES: Final = (".programme.yaml", ".programme.yml")
 _OTHER_KINDS: Final = (*library.FOLDERS.values(), "bench", "channel-map", "validation")
 _OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
 """Schemas of files that may lie among scenarios and are none: parts, benches, channel maps, validations."""
@@ -334,8 +337,9 @@ def scenario_trees(
     """Yield the tree of every scenario file at or below ``paths``, once and in order; append errors.
 
     A folder is searched for ``*.yaml`` and ``*.yml``, except sweeps (``*.sweep.yaml``), series
-    (``*.series.yaml``), parts, bench recipes, channel maps, validations, hidden files, and files that
-    begin with an underscore (parents only). A file that is named explicitly is always read.
+    (``*.series.yaml``), programmes (``*.programme.yaml``), parts, bench recipes, channel maps, validations,
+    hidden files, and files that begin with an underscore (parents only). A file that is named explicitly is
+    always read.
     """
     seen: set[str] = set()
     for given in paths:
@@ -381,5 +385,5 @@ def _may_be_scenario(name: str) -> bool:
     return (
         name.endswith((".yaml", ".yml"))
         and not name.startswith((".", "_"))
-        and not name.endswith((*SWEEP_SUFFIXES, *SERIES_SUFFIXES))
+        and not name.endswith((*SWEEP_SUFFIXES, *SERIES_SUFFIXES, *PROGRAMME_SUFFIXES))
     )
