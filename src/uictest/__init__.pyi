@@ -9,6 +9,7 @@ from .api import (
     read_recording as read_recording,
     read_results as read_results,
     run as run,
+    search as search,
     simulate as simulate,
     sweep as sweep,
     validate as validate,

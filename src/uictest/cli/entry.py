@@ -44,7 +44,7 @@ _EPILOG = (
     "3 simulation, write or internal error, 4 usage or invalid file, 5 nothing selected."
 )
 _SECTIONS: Final = {
-    "Run and judge": ("run", "sweep", "check", "list", "compare"),
+    "Run and judge": ("run", "sweep", "search", "check", "list", "compare"),
     "Your WSP": ("init", "controller", "export-controller"),
     "Recorded stops": ("evaluate", "log", "validate", "fit", "export"),
     "Caliper laboratory": ("bench", "identify"),

@@ -9,7 +9,7 @@ from pathlib import Path
 from uictest import report, runs
 from uictest.cli.options import CheckFormat, Format, Paths, StrictCheck, Trusted
 from uictest.cli.output import ExitCode, data, message, warn_of_implausible
-from uictest.plans import scenario, series, sweeps
+from uictest.plans import scenario, search, series, sweeps
 from uictest.plans.scenario import yaml
 
 _FIELDS = ("file", "line", "column", "key", "message", "hint")
@@ -36,6 +36,7 @@ def check(
             continue
         with yaml.collecting(errors, yaml.whole_file(path)):
             checked += load(path, trusted or ())
+    errors += [] if errors else search.searches_in(scenarios, trusted or ())[1]
     implausible = runs.implausible_trains(checked)
     errors += implausible if strict else ()
     warn_of_implausible(() if strict else implausible)

@@ -228,6 +228,8 @@ class Measure:
         corrected: which of `nominal_speed` and `gradient` of the stop its value is corrected for: `read` is
             given both beside the definitions.
         share_of: what a share is one of, behind its unit: `of the time`.
+        approach: column of wheelsets that says, from 0 to 1, how near a stop comes to the first of what is
+            measured, where a value of 0 does not: a lock begins at a slide of 1.
         finite_field: field of the record in which every simulated stop has a finite number; empty where NaN
             says that something never happened.
 
@@ -255,6 +257,7 @@ class Measure:
     column: StopColumn | WheelsetColumn | None = None
     corrected: tuple[str, ...] = ()
     share_of: str = ""
+    approach: str = ""
     finite_field: str = ""
 
     def __post_init__(self) -> None:

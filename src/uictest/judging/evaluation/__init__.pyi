@@ -50,6 +50,7 @@ from .judgement import (
     judge as judge,
     verdict_of as verdict_of,
 )
+from .margins import guiding_margin as guiding_margin
 from .outcome import (
     RailValidity as RailValidity,
     RequirementStatus as RequirementStatus,

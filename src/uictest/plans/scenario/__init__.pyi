@@ -38,6 +38,7 @@ from .json_schema import (
     schema_of as schema_of,
 )
 from .loading import (
+    LoadedCase as LoadedCase,
     load as load,
     load_controller as load_controller,
     load_file as load_file,
@@ -127,6 +128,12 @@ from .parts.rail import (
     Sander as Sander,
 )
 from .parts.rail_cleaning import CreepCurve as CreepCurve
+from .parts.search import (
+    FailsIn as FailsIn,
+    Search as Search,
+    fault_name as fault_name,
+    kinds_named as kinds_named,
+)
 from .parts.vehicle import (
     WHEELSET_NUMBERS as WHEELSET_NUMBERS,
     Coupler as Coupler,

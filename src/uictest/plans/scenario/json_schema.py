@@ -11,6 +11,7 @@ from pydantic.json_schema import GenerateJsonSchema
 from uictest.core.units import KINDS
 from uictest.plans.scenario.expansion import Vary
 from uictest.plans.scenario.model import Scenario
+from uictest.plans.scenario.parts.search import Search
 from uictest.plans.scenario.resolution import PART_KEYS, PART_KINDS
 from uictest.plans.scenario.train import TrainCar
 from uictest.plans.scenario.yaml import QUANTITY_KEYWORD, Quantity, QuantityField, written
@@ -33,11 +34,12 @@ def json_schema() -> dict[str, Any]:
     It allows what the loader fills in: parts by default, and everything that a parent may give.
     """
     schema = _schema_2020_of(Scenario, "uictest scenario")
-    vary = _schema_2020_of(Vary, "Vary")
-    schema["definitions"] |= {**vary.pop("definitions"), "Vary": vary}
-    described = schema["properties"]["vary"]["description"]
-    of_sweeps = [{"$ref": f"{_DEFINITIONS}Vary"}, {"type": "null"}]
-    schema["properties"]["vary"] = {"anyOf": of_sweeps, "description": described}
+    for name, model in (("vary", Vary), ("search", Search)):
+        of_model = _schema_2020_of(model, model.__name__)
+        schema["definitions"] |= {**of_model.pop("definitions"), model.__name__: of_model}
+        described = schema["properties"][name]["description"]
+        of_section = [{"$ref": f"{_DEFINITIONS}{model.__name__}"}, {"type": "null"}]
+        schema["properties"][name] = {"anyOf": of_section, "description": described}
     cars = _schema_2020_of(tuple[TrainCar, ...], "train")
     schema["definitions"]["TrainCar"] = cars["definitions"]["TrainCar"]
     train = schema["properties"]["train"]

@@ -83,12 +83,14 @@ _SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample")
 class LoadedCase(NamedTuple):
     """A case and the tree that it is resolved from; `vary` is what a sweep of it varies.
 
-    Of a car that a sweep varies, the tree is that of its train.
+    Of a car that a sweep varies, the tree is that of its train. `search` is the section of that name, which
+    says nothing of the case.
     """
 
     case: Case
     tree: Map
     vary: Entry | None = None
+    search: Entry | None = None
 
 
 def load(
@@ -143,6 +145,7 @@ class _ScenarioFile(NamedTuple):
     short: dict[str, str]
     labels: Labels
     vary: Entry | None
+    search: Entry | None
     ids: dict[str, Variant]
     inherits_expectation: bool
     """Whether it stands in a parent of the file that names the controller."""
@@ -180,6 +183,7 @@ class _Loader:
         # Every scenario has its own name: an inherited one would not be unique.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
         merged, vary = self._without_vary(tree, merged)
+        merged, search = _without_search(merged, vary)
         expect, controller = merged.entries.get(EXPECT), merged.entries.get(CONTROLLER)
         inherits = expect is not None and controller is not None and is_older(expect, controller, documents)
         merged = without_inherited_vehicle(merged, documents)
@@ -195,7 +199,7 @@ class _Loader:
         settings = [setting for variant in variants for setting in variant]
         short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
         labels = controller_labels(settings, self.parts)
-        return _ScenarioFile(path, base, documents, short, labels, vary, {}, inherits), variants
+        return _ScenarioFile(path, base, documents, short, labels, vary, search, {}, inherits), variants
 
     def _without_vary(self, own: Map, merged: Map) -> tuple[Map, Entry | None]:
         """Take off what a sweep varies. Raises ScenarioErrors where the file should be none, or is none."""
@@ -244,7 +248,7 @@ class _Loader:
             parameters = {**swept, CAR: str(number)} if is_coupled else swept
             train = TrainPlace(case_id(*named), number, scenarios) if is_coupled else None
             case = Case(identifier, scenario, path, parameters, inputs, train)
-            loaded.append(LoadedCase(case, tree if self.varied else car, file.vary))
+            loaded.append(LoadedCase(case, tree if self.varied else car, file.vary, file.search))
         return loaded
 
     def _varied(self, base: Map, variant: Variant) -> Map:
@@ -274,6 +278,19 @@ class _Loader:
             raise duplicate_id(identifier, variant, file.ids[identifier])
         file.ids[identifier] = variant
         return identifier
+
+
+def _without_search(merged: Map, vary: Entry | None) -> tuple[Map, Entry | None]:
+    """Take off what a search looks for. Raises ScenarioErrors where the file is a sweep as well."""
+    search = merged.entries.get("search")
+    if search is None or is_null(search.node):
+        return merged.without("search"), None
+    if vary is not None:
+        hint = (
+            "a search varies what its own `ranges`, `profile` and `faults` say: move it to a file of its own"
+        )
+        raise single_error(search.key, "a sweep has no 'search' beside 'vary'", "search", hint)
+    return merged.without("search"), search
 
 
 def load_part(reference: str) -> Part:

@@ -224,6 +224,9 @@ class Scenario(TestFile):
     vary: dict[str, Any] | None = optional(
         "What `uictest sweep` varies: lists, ranges and distributions of values."
     )
+    search: dict[str, Any] | None = optional(
+        "Where `uictest search` looks for stops that fail; a run takes no notice of it."
+    )
 
     def undescribed(self) -> Iterator[Inconsistency]:
         """Yield sources of its own numbers: parts describe sources, a scenario has none."""

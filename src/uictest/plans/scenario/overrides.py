@@ -36,7 +36,9 @@ from uictest.plans.scenario.yaml import (
     visible,
 )
 
-FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude", "vary"})
+FIXED: Final = frozenset(
+    {"schema", "name", "extends", "matrix", "zip", "include", "exclude", "vary", "search"}
+)
 """Keys that belong to the file and not to a case."""
 OF_CAR: Final = re.compile(r"^train\.\d+\.")
 """Before a key that a car of a train has of its own."""

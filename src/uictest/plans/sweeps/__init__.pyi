@@ -4,6 +4,7 @@ from .base_case import (
     inconsistencies as inconsistencies,
     is_free as is_free,
     train_problem as train_problem,
+    value_at as value_at,
     with_values as with_values,
 )
 from .column import (

@@ -13,7 +13,13 @@ from .cluster import (
     check_address as check_address,
     run_on_cluster as run_on_cluster,
 )
-from .many_stops import RunBlock as RunBlock, VariedCase as VariedCase, VariedTrain as VariedTrain
+from .many_stops import (
+    ManyStops as ManyStops,
+    PlannedCase as PlannedCase,
+    RunBlock as RunBlock,
+    VariedCase as VariedCase,
+    VariedTrain as VariedTrain,
+)
 from .store import (
     ChangedInputsError as ChangedInputsError,
     ChunkStore as ChunkStore,

@@ -74,6 +74,7 @@ class ManyStops:
             repeated in their own where a bias may have decided the result [default: in their own at once].
         detail: how much verdicts say, see :func:`uictest.judging.evaluation.judge`.
         nominal: the case whose noise all stops meet and as which they are judged [default: each as itself].
+        noise_of: the case whose noise all stops meet, each judged as itself [default: that of `nominal`].
 
     """
 
@@ -83,6 +84,7 @@ class ManyStops:
     survey_biases: Mapping[str, float] | None = None
     detail: Detail = "status"
     nominal: Case | None = None
+    noise_of: Case | None = None
 
     def results(self, planned: Sequence[PlannedCase]) -> tuple[list[CaseResult], list[int]]:
         """Return the results of cases, and the indices of those that a survey repeated in regular steps.
@@ -135,18 +137,17 @@ class ManyStops:
                 problem = f"rig.compensation_model: {error}"
             except (ValueError, ArithmeticError) as error:
                 problem = f"{type(error).__name__}: {error}"
-        if self.nominal is None:
-            return case, inputs, problem
-        if inputs is not None:
-            inputs.parameters["noise_key"] = self._nominal_noise_key
+        if inputs is not None and self._noise_key is not None:
+            inputs.parameters["noise_key"] = self._noise_key
             if inputs.config is not None:  # it is not the stop that its records name
                 inputs = inputs._replace(config=replace(inputs.config, case_sha256=""))
-        return replace(self.nominal, id=case.id), inputs, problem
+        return case if self.nominal is None else replace(self.nominal, id=case.id), inputs, problem
 
     @cached_property
-    def _nominal_noise_key(self) -> int:
-        assert self.nominal is not None
-        return int(rig.assemble(bench.identified(self.nominal)).parameters["noise_key"])
+    def _noise_key(self) -> int | None:
+        """The noise key of all stops; None where each has its own."""
+        case = self.noise_of or self.nominal
+        return None if case is None else int(rig.assemble(bench.identified(case)).parameters["noise_key"])
 
     def _simulated_stops(self, stops: Sequence[rig.StopInputs]) -> list[_Simulated]:
         """Return the measures of stops; where the simulation of all fails, they are simulated one by one."""

@@ -102,6 +102,7 @@ MEASURES = (
         observed_by=("locked_speed", "moving_speed"),
         of_faults=True,
         recorded=_FAULTS,
+        approach="maximum_slide",
     ),
     Measure(
         name="longest_release",

@@ -219,6 +219,7 @@ MEASURES = (
         observed_by=_OF_LOCKS,
         recorded=_WHEEL_SPEEDS,
         column=WheelsetColumn("locked_time_s", "s", overview=Overview("locked\nmax s", digits=1, rank=9)),
+        approach="maximum_slide",
         finite_field="locked_time",
     ),
     Measure(
@@ -231,6 +232,7 @@ MEASURES = (
         of_wheelsets=True,
         observed_by=_OF_LOCKS,
         recorded=_WHEEL_SPEEDS,
+        approach="maximum_slide",
         finite_field="longest_lock",
     ),
 )

@@ -1,0 +1,165 @@
+"""A search, from its scenario to the case that it finds."""
+
+import pytest
+import yaml
+
+import uictest
+from tests.searching.conftest import OFFSET, SOUND
+from uictest.judging.evaluation import CaseResult
+from uictest.plans.search import load_search
+from uictest.searching import Trials
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """Return the outcome of the search that finds the offset, on one thread."""
+    folder = tmp_path_factory.mktemp("found")
+    (folder / "search.yaml").write_text(OFFSET, "utf-8")
+    return uictest.search(folder / "search.yaml", jobs=1, output=folder / "reports", trust=[folder])
+
+
+def test_what_is_found_runs_alone_and_meets_its_expectation(found):
+    for number, case in enumerate(found.found, start=1):
+        path = found.folder / f"found-{number}.yaml"
+        [result] = uictest.run(path, trust=[found.folder.parents[1]])
+        assert (result.outcome, result.met) == ("fail", True)
+        failing = [stop for stop in result.repeats.stops if fails(stop, "locked-wheels")]
+        assert len(failing) == case.failing >= 3
+    assert found.page.is_file()
+
+
+def fails(stop, criterion):
+    return any(verdict.id == criterion and verdict.status == "fail" for verdict in stop.criteria)
+
+
+def test_what_is_found_is_small_and_its_sentence_says_what_matters(found):
+    first = found.found[0]
+    assert first.off_nominal <= 2
+    assert first.sentence.startswith("speed sensor offset of wheelset")
+    assert f"locked-wheels {first.sentence.partition('locked-wheels ')[2]}" in first.sentence
+    assert f"in {first.failing} of 4 stops" in first.sentence
+
+
+def test_the_result_does_not_depend_on_threads(found, write, search):
+    outcome = search(write(OFFSET), "two", jobs=2)
+    assert (found.folder / "search.csv").read_bytes() == (outcome.folder / "search.csv").read_bytes()
+    assert [case.sentence for case in found.found] == [case.sentence for case in outcome.found]
+
+
+@pytest.mark.parametrize("torn", [0, 7])
+def test_a_search_that_was_killed_goes_on_to_the_same_end(found, write, search, torn):
+    path = write(OFFSET)
+
+    def kill(stops, margin):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        search(path, "killed", progress=kill)
+    file = path.parent / "killed" / "search.csv"
+    rows = file.read_bytes()
+    assert 0 < len(rows) < len((found.folder / "search.csv").read_bytes())
+    file.write_bytes(rows[: len(rows) - torn])  # killed while a row was written
+    outcome = search(path, "killed", resume=True)
+    assert file.read_bytes() == (found.folder / "search.csv").read_bytes()
+    assert [case.sentence for case in outcome.found] == [case.sentence for case in found.found]
+
+
+def test_another_search_is_not_resumed(write, search):
+    search(write(SOUND), "sound")
+    with pytest.raises(ValueError, match="another search"):
+        search(write(SOUND.replace("48", "64")), "sound", resume=True)
+
+
+def test_where_nothing_is_found_the_stops_bound_what_can_fail(write, search):
+    outcome = search(write(SOUND))
+    assert outcome.found == ()
+    share = outcome.findings.largest_share
+    assert (1.0 - share) ** outcome.findings.random == pytest.approx(0.05)
+    assert 0.0 < outcome.findings.margins["locked-wheels"] < 2.0
+    assert outcome.stops >= 48
+    assert f"none of {outcome.findings.random} random points did" in " ".join(outcome.lines)
+
+
+def test_points_that_are_refused_are_skipped_counted_and_said(write, search):
+    outcome = search(
+        write(SOUND.replace("[0.08, 0.20]}", "[0.08, 0.20], simulation.time_step: [0.3 ms, 0.5 ms]}"))
+    )
+    assert outcome.findings.refused > 0
+    assert f"{outcome.findings.refused} points could not be run" in outcome.lines[-1]
+
+
+def test_a_space_in_which_nothing_can_be_run_ends(write, search, monkeypatch):
+    monkeypatch.setattr(Trials, "simulate", lambda self, stops: [None] * len(stops))
+    outcome = search(write(SOUND))
+    assert (outcome.stops, outcome.found, outcome.findings.largest_share) == (0, (), 1.0)
+
+
+def test_a_criterion_that_jumps_is_found_as_well(write, search, monkeypatch):
+    """Its margin says nothing of how near a stop comes: the search is random then."""
+    real = Trials.run
+
+    def jumping(self, stops):
+        trials = real(self, stops)
+        signs = [tuple(1.0 if margin > 0.0 else -1.0 for margin in each.margins[:-1]) for each in trials]
+        return [
+            trial._replace(margins=(*sign, trial.margins[-1]))
+            for trial, sign in zip(trials, signs, strict=True)
+        ]
+
+    monkeypatch.setattr(Trials, "run", jumping)
+    assert search(write(OFFSET)).found
+
+
+CRASHES = """
+class Wsp:
+    def __init__(self, config):
+        self.wheelsets = config.wheelsets
+
+    def reset(self):
+        pass
+
+    def step(self, inputs):
+        from uictest.controllers import Outputs
+        if inputs.wheel_speed[0] > 30.0:
+            raise RuntimeError("too fast for me")
+        return Outputs(hold=[False] * self.wheelsets, vent=[False] * self.wheelsets)
+"""
+
+
+def test_a_controller_that_crashes_is_a_finding_and_does_not_end_the_search(write, search):
+    write(CRASHES, "crashes.py")
+    scenario = SOUND.replace(
+        "extends: slip-120", "extends: slip-120\ncontroller: {python: crashes.py, class: Wsp}"
+    )
+    scenario = scenario.replace(
+        "ranges: {rail.friction: [0.08, 0.20]}", "ranges: {initial_speed: [80 km/h, 140 km/h]}"
+    )
+    outcome = search(write(scenario), "crash")
+    [(number, case)] = [
+        (number, case) for number, case in enumerate(outcome.found, start=1) if case.target == "error"
+    ]
+    assert "too fast for me" in case.sentence
+    assert [case.target for case in outcome.found if case.target != "error"]  # it never vents
+    written = yaml.safe_load((outcome.folder / f"found-{number}.yaml").read_text("utf-8"))
+    assert written["expect"] == "pass"  # a crash is never expected: the scenario is met once it is mended
+
+
+def test_a_search_in_memory_writes_nothing(write, tmp_path):
+    path = write(SOUND)
+    outcome = uictest.search(path, stops=16, seed=3)
+    assert outcome.folder is None
+    assert [each.name for each in tmp_path.iterdir()] == ["search.yaml"]
+
+
+def test_a_run_of_the_scenario_takes_no_notice_of_its_search(write):
+    [result] = uictest.run(write(SOUND))
+    assert isinstance(result, CaseResult)
+    assert result.outcome == "pass"
+
+
+def test_numbers_of_a_part_that_the_scenario_only_names_are_written_below_it(write, search):
+    text = OFFSET.replace("initial_speed: [100 km/h, 140 km/h]", "vehicle.payload: [9 t, 12 t]")
+    outcome = search(write(text.replace("slip-120\n", "slip-120\ncontroller: threshold\n")), "parts")
+    space = load_search(outcome.folder.parent / "search.yaml")
+    assert space.columns[1] == "vehicle.payload"
+    assert outcome.found
