@@ -163,3 +163,10 @@ def test_numbers_of_a_part_that_the_scenario_only_names_are_written_below_it(wri
     space = load_search(outcome.folder.parent / "search.yaml")
     assert space.columns[1] == "vehicle.payload"
     assert outcome.found
+
+
+def test_a_criterion_that_judges_no_stop_is_said(write, search):
+    """The one of Appendix B judges dry stops alone."""
+    text = SOUND.replace("[locked-wheels]", "[locked-wheels, braking-distance]")
+    lines = search(write(text)).lines
+    assert "braking-distance: nothing found; it judged no stop" in lines

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -77,14 +78,16 @@ class SearchOutcome:
     def lines(self) -> list[str]:
         """The answer in words: what was found, or what the stops exclude."""
         lines = [f"found: {case.sentence}" for case in self.found]
-        for criterion in self.criteria:
-            if criterion not in self.findings.found:
-                margin = self.findings.margins.get(criterion, float("inf"))
-                lines.append(f"{criterion}: nothing found; smallest margin {margin:.3g} (fails below 0)")
-        if not all(criterion in self.findings.found for criterion in self.criteria):
-            share = self.findings.largest_share
+        left = [criterion for criterion in self.criteria if criterion not in self.findings.found]
+        for criterion in left:
+            margin = self.findings.margins.get(criterion, math.inf)
+            known = math.isfinite(margin)
+            nearest = f"smallest margin {margin:.3g} (fails below 0)" if known else "it judged no stop"
+            lines.append(f"{criterion}: nothing found; {nearest}")
+        if left:
+            share, by_these = self.findings.largest_share, " by what was not found" if self.found else ""
             lines.append(
-                f"At most {100.0 * share:.2g} % of the searched space fails (95 %): none of"
+                f"At most {100.0 * share:.2g} % of the searched space fails{by_these} (95 %): none of"
                 f" {self.findings.random} random points did"
             )
         refused = f"; {self.findings.refused} points could not be run" if self.findings.refused else ""
