@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, strategies as st
@@ -12,6 +13,7 @@ from uictest.judging.evaluation import Bounds, CaseResult, Verdict, guiding_marg
 from uictest.plans import scenario
 from uictest.plans.scenario.yaml import parse_quantity
 from uictest.plans.sweeps import with_values
+from uictest.report.content import worst_first
 from uictest.running.chunked import ManyStops, PlannedCase
 
 
@@ -117,3 +119,8 @@ def scenario_path(name):
     from uictest.plans import library
 
     return library.scenarios()[name]
+
+
+def test_of_stops_without_a_lock_the_one_with_the_largest_slide_is_nearest_to_failing():
+    made = {slide: replace(result(0.0, slide=slide), id=str(slide)) for slide in (0.1, 0.9, 0.5)}
+    assert [each.id for each in worst_first(made.values())] == ["0.9", "0.5", "0.1"]

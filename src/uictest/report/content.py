@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import platform
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -307,12 +308,17 @@ def drawn_cases(
 
 
 def worst_first(results: Iterable[evaluation.CaseResult]) -> list[evaluation.CaseResult]:
-    """Return the results: not as expected, of these a requirement missed, first; then by narrowest margin."""
+    """Return the results: not as expected, of these a requirement missed, first; then the nearest to failing.
 
-    def rank(result: evaluation.CaseResult) -> tuple[bool, bool, bool, float]:
+    That is by the narrowest margin, and where it is that of a lock that never began, by the largest slide.
+    """
+
+    def rank(result: evaluation.CaseResult) -> tuple[bool, bool, bool, float, float]:
         margin, _ = evaluation.narrowest_margin(result)
-        missed = result.requirement_status == "missed"
-        return result.met, not missed, result.outcome == "pass", 1.0 if margin is None else margin
+        missed, narrowest = result.requirement_status == "missed", 1.0 if margin is None else margin
+        guides = [evaluation.guiding_margin(result, verdict.id) for verdict in result.criteria]
+        nearest = min((guide for guide in guides if not math.isnan(guide)), default=math.inf)
+        return result.met, not missed, result.outcome == "pass", narrowest, nearest
 
     return sorted(results, key=rank)
 
