@@ -140,6 +140,14 @@ def test_a_limit_excludes_its_ends_and_what_is_not_known():
     ]
 
 
+def rows_of(output, name):
+    """The rows of a table of the newest run below a folder, by the keys that programs read."""
+    document = json.loads((output / "latest" / "results.json").read_text("utf-8"))
+    [table] = [table for table in document["campaign"]["tables"] if table["name"] == name]
+    keys = [key for key, *_ in table["columns"]]
+    return [dict(zip(keys, row, strict=True)) for row in table["rows"]]
+
+
 def test_the_exit_code_is_neutral_unless_asked_and_each_test_is_a_testcase(write, tmp_path, capsys):
     text = PROGRAMME.replace("below: 490 m", "below: 450 m") + SCAN
     path = str(write("own.programme.yaml", text))
@@ -157,20 +165,26 @@ def test_the_exit_code_is_neutral_unless_asked_and_each_test_is_a_testcase(write
         assert message.startswith("missed: 472.2 m (limit 440 m to 450 m)")
     assert outcomes["neutral"] == {"dry": ["skipped"], "wet": ["system-out"]}
     assert outcomes["strict"] == {"dry": ["failure"], "wet": ["system-out"]}
-    document = json.loads((tmp_path / "neutral" / "latest" / "results.json").read_text("utf-8"))
-    tables = {table["name"]: table for table in document["campaign"]["tables"]}
-    assert [row[-2] for row in tables["tests"]["rows"]] == ["missed", "met"]
+    dry, wet = rows_of(tmp_path / "neutral", "tests")
+    assert (dry["verdict"], dry["above_m"], dry["below_m"], dry["within_limit"]) == (
+        "missed",
+        440.0,
+        450.0,
+        0,
+    )
+    assert (wet["verdict"], wet["stops"], wet["valid_stops"], wet["within_limit"]) == ("met", 2, 2, 2)
+    assert wet["largest_m"] == pytest.approx(1.5 * 472.2, rel=1e-3)
 
 
 def test_the_interval_of_friction_ends_where_the_verdict_turns(write, tmp_path):
     """Its ends are checked by stops of their own, just inside and just outside."""
     path = write("own.programme.yaml", PROGRAMME + SCAN)
     assert execute(["run", str(path), "-q", "-o", str(tmp_path / "runs")]) == 0
-    document = json.loads((tmp_path / "runs" / "latest" / "results.json").read_text("utf-8"))
-    tables = {table["name"]: table for table in document["campaign"]["tables"]}
-    [[rail, interval]] = tables["friction"]["rows"]
-    low, high = map(float, interval.split(" to "))
-    assert rail == "wet-cleaning"
+    [row] = rows_of(tmp_path / "runs", "intervals")
+    rail, low, high = row["rail"], row["low"], row["high"]
+    assert (row["test"], rail, row["validity_judged"]) == ("wet", "wet-cleaning", True)
+    [shown] = rows_of(tmp_path / "runs", "friction")
+    assert shown == {"rail": rail, "wet": f"{low:.3g} to {high:.3g}"}
     limit = 1.5 * uictest.run("dry-120")[0].measures["braking_distance_m"]
 
     def met(friction):

@@ -161,7 +161,7 @@ class CampaignColumn(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class CampaignTable:
-    """A table over the stops of a log.
+    """A table over the stops of a log or of a programme.
 
     Args:
         name: name of its file and its sheet.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from uictest.core.document import Cell
@@ -60,6 +60,11 @@ _TESTS = (
     CampaignColumn("limit", "limit", wraps=True),
     CampaignColumn("verdict", "verdict", wraps=True),
     CampaignColumn("also", "misses of\nour criteria", wraps=True),
+    *(CampaignColumn(key, "") for key in ("name", "stops", "valid_stops", "within_limit")),
+    *(CampaignColumn(key, "") for key in ("above_m", "below_m", "largest_m")),
+)
+_INTERVALS = tuple(
+    CampaignColumn(key, key) for key in ("test", "rail", "low", "high", "validity_judged", "stops")
 )
 
 
@@ -84,7 +89,7 @@ def programme_campaign(
     notes = [f"{test.name}: {test.note}" for test in noted]
     return Campaign(
         sentences=(f"Limits: {file.mark}.", *file.notes, *notes),
-        tables=tuple(filter(None, (_tests_table(tests), _ranges_table(file, ranges)))),
+        tables=(_tests_table(tests), *_range_tables(file, ranges)),
         title=file.title or file.name,
         headline=headline,
         tests=tuple(_ci_test(test, ranges, strict=strict) for test in tests),
@@ -106,7 +111,19 @@ def _record(test: JudgedTest) -> Mapping[str, Cell]:
         "limit": _limit_text(test),
         "verdict": test.status,
         "also": ", ".join(test.missed_requirements),
+        "name": test.planned.test.name,
+        "stops": len(test.stops),
+        "valid_stops": test.valid_stops,
+        "within_limit": None if test.limits is None else test.within,
+        **{
+            f"{name}_m": None if test.limits is None else _finite(getattr(test.limits, name))
+            for name in ("above", "below", "largest")
+        },
     }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _rail_validity(stop: evaluation.CaseResult) -> str:
@@ -133,9 +150,10 @@ def _limit_text(test: JudgedTest) -> str:
     return f"below {below}" if limit.above is None else f"{limit.above.text} to {below}"
 
 
-def _ranges_table(file: ProgrammeFile, ranges: Sequence[MetRange]) -> CampaignTable | None:
+def _range_tables(file: ProgrammeFile, ranges: Sequence[MetRange]) -> Iterator[CampaignTable]:
+    """Yield the frictions for people, a row for each rail, and for programs, a row for each interval."""
     if not ranges:
-        return None
+        return
     rails = list(dict.fromkeys(each.rail for each in ranges))
     names = list(dict.fromkeys(each.test for each in ranges))
     found = {(each.rail, each.test): each.text for each in ranges}
@@ -150,9 +168,16 @@ def _ranges_table(file: ProgrammeFile, ranges: Sequence[MetRange]) -> CampaignTa
         f" {counted(stops, 'stop')}{unjudged}"
     )
     records = [{"rail": rail, **{name: found[rail, name] for name in names}} for rail in rails]
-    return CampaignTable.of_records(
-        "friction", "Friction at which each test is valid and met", basis, "first", columns, records
-    )
+    title = "Friction at which each test is valid and met"
+    yield CampaignTable.of_records("friction", title, basis, "first", columns, records)
+    intervals = [
+        {"test": each.test, "rail": each.rail, "low": _finite(low), "high": _finite(high)}
+        | {"validity_judged": each.judged, "stops": each.stops}
+        for each in ranges
+        for low, high in each.intervals
+    ]
+    basis = f"an end that is empty lies outside of {low} to {high}"
+    yield CampaignTable.of_records("intervals", title, basis, "file", _INTERVALS, intervals)
 
 
 def _ci_test(test: JudgedTest, ranges: Sequence[MetRange], *, strict: bool) -> CampaignTest:
