@@ -19,7 +19,7 @@ from pathlib import Path
 from packaging.requirements import Requirement
 
 REPOSITORY = Path(__file__).parents[1]
-EXTRAS = ("figures", "mdf", "tdms", "mat", "fmu", "dask")
+EXTRAS = ("build", "figures", "mdf", "tdms", "mat", "fmu", "dask")
 TOOLS = ("hypothesis", "jsonschema", "junitparser", "openpyxl", "pytest")
 """What the tests below need besides, in any version."""
 TESTS = (
@@ -87,10 +87,10 @@ def requirements() -> list[Requirement]:
 
 def lowest() -> list[str]:
     """Return `name==version` of the lowest version that is allowed of every package."""
-    bounds = {
-        each.name: next(one for one in each.specifier if one.operator == ">=") for each in requirements()
-    }
-    return [f"{name}=={bound.version}" for name, bound in bounds.items()]
+    return [
+        f"{each.name}=={next(one.version for one in each.specifier if one.operator in ('>=', '=='))}"
+        for each in requirements()
+    ]
 
 
 if __name__ == "__main__":

@@ -1,13 +1,15 @@
 """Which of two sides is better: by numbers, by verdicts that turned, and what both sides are called."""
 
+import math
 from dataclasses import replace
 
 import pytest
 
 from uictest.analysis.comparison import Baseline, Scope, Tolerances, comparison_document
-from uictest.analysis.comparison.answer import Answer, Condition, TurnedVerdict
+from uictest.analysis.comparison.answer import Answer, Condition, TurnedVerdict, subject_names
 from uictest.analysis.comparison.comparison_document import conditions_table, differing_table
 from uictest.analysis.comparison.paired_stops import PairedDifference
+from uictest.analysis.comparison.parameters import ParameterChange
 from uictest.analysis.comparison.runs import compare_runs
 from uictest.core.measures import column_unit
 from uictest.core.series_measures import mean_of
@@ -74,7 +76,7 @@ def test_a_requirement_that_turned_decides_and_validity_is_told_apart():
     assert {each.remark for each in answer.conditions} == {
         "newly missed: locked-wheels; test: newly missed: grip"
     }
-    assert answer.sentences[0].endswith("worse in all 9 conditions: newly missed requirements.")
+    assert answer.sentences[0].endswith("worse in all 9 conditions: requirements no longer met.")
     assert answer.sentences[1] == (
         "Verdicts that turned: requirements: locked-wheels newly missed in 9 cases; validity as a test: grip"
         " newly missed in 9 cases. Requirements are missed in 0 cases with 3.1 and 9 cases with 4.0."
@@ -113,6 +115,53 @@ def test_a_number_of_one_is_kept_and_a_measure_without_a_better_side_differs(col
     assert answer.conditions[0].lead.standing(Tolerances()) == standing
     assert answer.sentences[0].endswith(f"{said}.")
     assert answer.verdict.startswith(f"b is {standing}")
+
+
+@pytest.mark.parametrize(
+    ("changes", "standing", "remark"),
+    [
+        # A train that rolls on locks no wheels: no criterion turned, and nothing is better.
+        ({"distance": math.nan}, "not comparable", "not every stop came to a standstill"),
+        (
+            {"criteria": (replace(LOCKED, status="inconclusive"),), "distance": math.nan},
+            *("worse", "no longer shown to be met: locked-wheels; not every stop came to a standstill"),
+        ),
+        (
+            {"criteria": (LOCKED, make_verdict(id="balance", layer="rig", status="fail"))},
+            *("not comparable", "checks fail: balance"),
+        ),
+        (
+            {"criteria": (replace(LOCKED, id="new", status="fail"),)},
+            *("better", "on the first side alone: locked-wheels; on the second side alone: new"),
+        ),
+    ],
+)
+def test_a_stop_that_is_not_whole_is_not_better(changes, standing, remark):
+    (first, *_), (second, *_) = _cases((0.0,) * 3), _cases((-20.0,) * 3)
+    first = replace(first, criteria=(LOCKED,))
+    stops = second.repeats.stops
+    measures = {**stops[0].measures, "braking_distance_m": changes.get("distance", 480.0)}
+    repeats = replace(second.repeats, stops=(replace(stops[0], measures=measures), *stops[1:]))
+    second = replace(second, criteria=changes.get("criteria", (LOCKED,)), repeats=repeats)
+    [condition] = _answer([first], [second]).conditions
+    assert (condition.standing, condition.remark) == (standing, remark)
+
+
+def test_what_is_not_compared_is_in_the_shortest_answer_and_in_the_notes():
+    one, *others = _cases((0.0,) * 3)
+    found = compare_runs(
+        _run("one", [one, *others]), replace(_run("other", [one]), complete=False), Tolerances()
+    )
+    assert found.answer.verdict.endswith(" in 1 of 9 conditions")
+    assert found.notes[0] == "other is incomplete: not all that was selected was run"
+
+
+def test_a_changed_digest_gives_no_name_beside_a_changed_parameter():
+    digest, slide = ParameterChange("c.sha256", "a", "b", ()), ParameterChange("c.upper_slide", "1", "2", ())
+    assert subject_names(RunContent("", []), RunContent("", []), [digest, slide]) == (
+        "upper_slide 1",
+        "upper_slide 2",
+    )
 
 
 def test_verdicts_of_series_are_counted_as_such():

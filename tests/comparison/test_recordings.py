@@ -116,6 +116,13 @@ def test_recordings_that_share_no_time_do_not_agree_and_what_was_not_compared_is
         f"compared at the instants of B, every 250 ms; A has a sample every 100 ms {between}",
         "A goes on for 2 s, from 8 s: not compared",
     ]
+    first = make_recording()
+    shifted = Recording({**first.channels, "time": first["time"] + 0.005}, first.units)
+    assert list(sampling_remarks(first, shifted)) == [
+        "compared at the instants of both; each is read off straight lines between its samples",
+        "A begins 0.005 s earlier: not compared",
+        "B goes on for 0.005 s, from 10 s: not compared",
+    ]
 
 
 def _ramp(at):

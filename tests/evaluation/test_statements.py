@@ -211,6 +211,9 @@ def test_what_is_expected_of_the_own_controller_and_allowed_to_another(expect, m
     own = expectation_of(expect)
     assert _result(verdicts, own).as_expected is of_own
     assert _result(verdicts, own.of_another_controller()).as_expected is of_another
+    # Nor is what criteria are named for where it is open whether the stop is a test.
+    undecided = _result([*verdicts, verdict("validity", "inconclusive")], own)
+    assert not (own.names_criteria and undecided.as_expected)
     # Nothing is expected of figures that are not those of the test.
     for layer in ("rig", "record"):
         spoiled = [*verdicts, verdict(layer, "fail")]

@@ -288,7 +288,7 @@ def _shipped_cases():
     for path in library.scenarios().values():
         if path.name.endswith(".series.yaml"):
             yield from (stop.case for each in load_series(path) for stop in each.stops)
-        elif not path.name.endswith(".sweep.yaml"):
+        elif not path.name.endswith((".sweep.yaml", ".programme.yaml")):
             yield from uictest.load(path)
 
 

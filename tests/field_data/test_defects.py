@@ -67,7 +67,7 @@ def _between(first, last, value):
     ("name", "damage", "kind", "text"),
     [
         ("tank_pressure_4", lambda samples: 0.0 * samples, "stuck", ""),
-        ("wheel_speed_4", lambda samples: 1.05 * samples, "offset", "+5.0 % from the train before it brakes"),
+        ("wheel_speed_4", lambda samples: 1.03 * samples, "offset", "+3.0 % from the train before it brakes"),
         ("speed", lambda samples: 1.06 * samples, "offset", ""),
         ("cylinder_pressure_2", lambda samples: samples + 0.4e5, "offset", ""),
         ("distance", lambda samples: 0.5 * samples, "contradiction", "by its speed the train runs"),

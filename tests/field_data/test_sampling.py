@@ -191,6 +191,9 @@ def test_a_low_pass_keeps_level_and_place_of_what_it_filters():
     channel = _channel("speed", TIME, 20.0 - TIME + ripple)
     filtered = low_passed(channel, 2.0).samples[100:-100]
     np.testing.assert_allclose(filtered, (20.0 - TIME)[100:-100], atol=0.02)
+    wave = np.sin(2.0 * np.pi * 2.0 * TIME)  # at its corner half of it is left, without delay
+    half = low_passed(_channel("speed", TIME, wave), 2.0).samples
+    np.testing.assert_allclose(half[100:-100], 0.5 * wave[100:-100], atol=0.005)
     assert low_passed(COMMAND, 2.0) is COMMAND
     assert low_passed(SPEED, 45.0) is SPEED
 

@@ -209,8 +209,8 @@ MOVED = PROFILE.replace("10 m", "{value: 10 m, range: [5 m, 20 m]}")
         ([PROFILE % "0.07"], [], ["rail.friction"]),
         ([MOVED % "0.07"], [], ["rail.friction"]),
         ([PROFILE % "{value: 0.07, range: [0.05, 0.09]}"], ["rail.friction.points.1.friction"], []),
-        (["rail={condition: leaf-layer}"], ["rail.condition.friction"], []),
-        (["rail={condition: dry}"], [], ["rail.condition.friction"]),
+        (["rail.friction=null", "rail.condition=leaf-layer"], ["rail.condition.friction"], []),
+        (["rail.friction=null", "rail.condition=dry"], [], ["rail.condition.friction"]),
     ],
 )
 def test_friction_scatters_from_draw_to_draw_where_a_range_says_so_and_else_is_named(

@@ -11,7 +11,7 @@ from uictest.report.case_lines import close_calls, definition_lines, explanation
 
 from .builders import make_content, make_result, make_verdict
 from .made_up_series import make_series
-from .test_robustness import make_repeated
+from .test_robustness import firmness, make_repeated
 from .test_verdict_sentences import READ
 
 
@@ -57,6 +57,10 @@ def test_what_turns_comes_before_narrow_margins_what_failed_is_not_close_():
     calls = close_calls(results)
     assert [(call.of, call.kind) for call in calls] == [("c", "turns"), ("b", "narrow"), ("a", "narrow")]
     assert str(calls[1]) == "b: braking-distance 441 m (440 to 490 m), 0.2 % to spare"
+    not_firm = [
+        make_result(firmness=firmness(), outcome=outcome, criteria=()) for outcome in ("pass", "fail")
+    ]
+    assert [[call.kind for call in close_calls([each])] for each in not_firm] == [["turns"], []]
 
 
 INSIDE = "not certain, the 95 % interval 73.54 to 100 % holds the limit (12 stops)"

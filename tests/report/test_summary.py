@@ -5,14 +5,24 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import example, given, strategies as st
 
-from uictest.judging.evaluation import EffectivePart, Parameter, RailValidity, Sensitivity, VerdictInterval
+from uictest.judging.evaluation import (
+    EffectivePart,
+    Parameter,
+    RailValidity,
+    Repeats,
+    Sensitivity,
+    VerdictInterval,
+)
 from uictest.plans.scenario import expectation_of
 from uictest.report import BaselineComparison, Difference, RunManifest
+from uictest.report.case_lines import MOST_CLOSE
 from uictest.report.conditions import shared_conditions
+from uictest.report.page import page_html
+from uictest.report.run_publication import publication_of_run
 from uictest.report.run_text import last_lines, run_lines
-from uictest.report.summary import run_summary
+from uictest.report.summary import case_causes, close_lines, run_summary
 from uictest.report.traces.trace import trace_of
 from uictest.report.verdict_sentences import explanation
 
@@ -149,29 +159,30 @@ def test_a_key_that_only_some_cases_have_is_named_where_it_is_missing():
     assert texts == ["without c", "c 8 and 9", "c none and 8"]
 
 
-@given(st.sets(st.sampled_from(list(product(FRICTIONS, COMMANDS))), min_size=1))
+MORE = list(product((*FRICTIONS, "0.12"), (*COMMANDS, "40 %")))
+
+
+@given(st.sets(st.sampled_from(MORE), min_size=1))
+@example({MORE[0], MORE[5], MORE[10], MORE[15]})
 def test_conditions_of_any_cases_are_true_of_them_alone(chosen):
     """Read back by an oracle that knows only the words: each clause is a product of values."""
-    cases = [case(*values) for values in product(FRICTIONS, COMMANDS)]
+    cases = [case(*values) for values in MORE]
     members = [each for each in cases if tuple(each.parameters.values()) in chosen]
     words = shared_conditions(members, cases)
-    if words.endswith("9 cases"):  # counted, as no short description is true
-        assert words == f"{len(chosen)} of 9 cases"
+    if words.endswith("16 cases"):  # counted, as no short description is true
+        assert words == f"{len(chosen)} of 16 cases"
         return
-    every = set(product(FRICTIONS, COMMANDS))
 
     def meant(clause):
-        frictions = [f for f in FRICTIONS if f in clause] if "friction" in clause else FRICTIONS
-        commands = (
-            [c for c in COMMANDS if c in clause.split()[-0:] or f" {c}" in clause]
-            if "command" in clause
-            else COMMANDS
-        )
-        return set(product(frictions, commands))
+        return {
+            (f, c)
+            for f, c in MORE
+            if ("friction" not in clause or f in clause) and ("command" not in clause or f" {c}" in clause)
+        }
 
-    named = set().union(*(meant(clause) for clause in words.removeprefix("all but ").split("; ")))
-    expected = every if words == "all cases" else every - named if words.startswith("all but") else named
-    assert expected == chosen
+    clauses = [] if words == "all cases" else words.removeprefix("all but ").split("; ")
+    named = set().union(*map(meant, clauses))
+    assert chosen == (set(MORE) - named if words.startswith("all") else named)
 
 
 def test_several_scenarios_are_named_and_a_run_that_is_fine_says_so():
@@ -237,7 +248,8 @@ def test_cases_that_differ_are_grouped_by_quantity_and_direction_and_the_furthes
     assert shorter.heading == "s[f=2] differs from the baseline"
     assert missing.heading == "lost is in the baseline and missing here"
     assert summary.headline == (
-        "3 of 4 cases differ from the baseline: s, s; 1 case is in the baseline and missing here: lost"
+        "3 of 4 cases differ from the baseline: s[f=0], s[f=1], s[f=2];"
+        " 1 case is in the baseline and missing here: lost"
     )
 
 
@@ -290,6 +302,8 @@ def test_a_command_that_tries_the_controller_is_shown_where_its_file_is_there(th
     )
     [group] = run_summary(faulty).groups
     assert group.check == ("uictest controller check ./acme.yaml" if there else "")
+    tried = f"try the controller by itself: {group.check}"
+    assert (tried in group.block.lines) is there
 
 
 def test_close_calls_are_one_line_for_each_criterion():
@@ -299,6 +313,9 @@ def test_close_calls_are_one_line_for_each_criterion():
     assert str(group) == (
         "slip[friction=0.06,command=60]: locked-wheels 0.99 s (limit 1 s), 1 % to spare, and 2 more cases"
     )
+    many = tuple(locked(0.99, id=f"criterion-{n}") for n in range(MOST_CLOSE + 1))
+    sentences = close_lines(run_summary(make_content(make_result(criteria=many)))).sentences
+    assert sentences[MOST_CLOSE:] == ["1 more criterion in criteria.csv"]
 
 
 def test_what_the_recording_shows_stands_as_the_cause():
@@ -313,6 +330,9 @@ def test_what_the_recording_shows_stands_as_the_cause():
     [cause] = group.causes
     assert "wrong by more than 15 % from 6.01 s on" in cause
     assert "4.5 km/h while the train runs at 98.4 km/h" in cause
+    # It is no cause beside one of the rail, nor that of the other stops of a repeated case.
+    for other in (replace(failed, rail=TOO_GOOD), replace(failed, repeats=Repeats("all", ()))):
+        assert case_causes(other, trace) == []
 
 
 def test_text_keeps_to_its_width_and_ends_with_what_failed():
@@ -332,3 +352,33 @@ def test_hostile_names_are_spelled_out():
     other = case("0.08", "60 %", parameters={HOSTILE: "1"})
     for line in run_lines(make_content(failed, other), 100):
         assert line.isprintable()
+
+
+def test_a_case_and_a_series_of_one_id_are_told_apart():
+    failed = case("0.06", "60 %", "fail", locked(3.0), id=MISSED.id)
+    headline = run_summary(make_content(failed, series=[MISSED])).headline
+    assert headline.startswith(f"1 of 1 case failed: {MISSED.id} (locked-wheels); 1 of 1 series ")
+
+
+def test_a_stop_that_fails_before_it_ends_says_that_it_did_not_end():
+    endless = make_verdict(
+        id="standstill",
+        layer="requirement",
+        measure="standstill",
+        status="inconclusive",
+        reason="no standstill",
+    )
+    [group] = run_summary(make_content(case("0.06", "60 %", "fail", locked(9.0), endless))).groups
+    assert list(group.causes) == ["no standstill"]
+
+
+def test_a_run_that_ended_early_has_passed_nowhere():
+    content = make_content(make_result(), complete=False)
+    [last] = last_lines(content, "; interrupted; 3 not run", 200)
+    assert last == "INCOMPLETE: 1 case: 1 pass; interrupted; 3 not run"
+    assert '<h1 class="tally-incomplete">' in page_html(content)
+    published = publication_of_run(content)
+    assert 'errors="1"' in published.junit()
+    assert "Incomplete" in published.markdown()
+    failed = make_content(make_result(), case("0.06", "60 %", "fail", locked(3.0)), complete=False)
+    assert 'errors="1"' not in publication_of_run(failed).junit()

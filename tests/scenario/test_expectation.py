@@ -46,7 +46,7 @@ def test_what_a_scenario_expects_is_read_and_written_as_it_was(loaded, text, exp
 @pytest.mark.parametrize(
     ("text", "message", "hint"),
     [
-        ("»{fail: [locked-wheel]}", "'locked-wheel' is not there", "did you mean 'locked-wheels'?"),
+        ("»{fail: [locked-wheel]}", "'locked-wheel' is no criterion", "did you mean 'locked-wheels'?"),
         ("»{fail: []}", "`fail` lists ids of criteria of requirement, at least", "`{fail: [locked-wheels]}`"),
         ("»{fail: locked-wheels}", "`fail` lists ids of criteria of", "`{fail: [locked-wheels]}`"),
         ("»{invalid: [3]}", "`invalid` lists ids of criteria of validity", "`{fail: [locked-wheels]}`"),
@@ -54,8 +54,16 @@ def test_what_a_scenario_expects_is_read_and_written_as_it_was(loaded, text, exp
         ("»{}", "an empty mapping names no criterion", "`{fail: [locked-wheels]}`"),
         ("»[fail]", "unknown value", "pass, fail, invalid, skipped"),
         ("»error", "unknown value 'error', expected one of pass, fail, invalid, skipped", "write one of"),
-        ("»{fail: [initial-adhesion]}", "is one of validity", "accepted: distance-over-reference, locked"),
-        ("»{invalid: [locked-wheels]}", "is one of requirement", "braking-distance, initial-adhesion, min"),
+        (
+            "»{fail: [initial-adhesion]}",
+            "has the layer validity",
+            "accepted: distance-over-reference, locked",
+        ),
+        (
+            "»{invalid: [locked-wheels]}",
+            "has the layer requirement",
+            "braking-distance, initial-adhesion, min",
+        ),
     ],
 )
 def test_what_cannot_be_expected_is_refused_at_its_place(refused, text, message, hint):
@@ -69,7 +77,7 @@ def test_what_cannot_be_expected_is_refused_at_its_place(refused, text, message,
 
 def test_names_are_those_of_the_profiles_of_the_scenario(refused):
     (found,) = refused(f"{HEAD}criteria: [uic-541-05-appendix-b]\n{FAIL.replace(', total-locked-time', '')}")
-    assert "'locked-wheels' is not there" in found.message
+    assert "'locked-wheels' is no criterion" in found.message
     assert found.hint == "there is none in the profiles of this scenario"
 
 

@@ -91,6 +91,12 @@ def test_a_malformed_option_is_refused_at_its_place(argument, column, message):
     assert str(diagnostic).replace("\n", "").isprintable()
 
 
+def test_a_value_that_a_later_option_replaces_with_its_whole_part_is_refused():
+    with pytest.raises(ScenarioErrors, match=r"write --set controller=\.\.\. first"):
+        parse_overrides(["controller.hold_limit=1 s", "controller=slip-band"], None)
+    assert len(parse_overrides(["controller=slip-band", "controller.cycle_time=10 ms", "seed=1"], None)) == 3
+
+
 @pytest.mark.parametrize(
     ("argument", "key", "hint"),
     [

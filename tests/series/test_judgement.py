@@ -176,6 +176,8 @@ def test_without_a_dry_stop_that_counts_nothing_is_decided_and_one_that_failed_t
     assert result.outcome == "inconclusive"
     assert "none of 1 dry stops from 120 km/h counts" in result.reason
     assert judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "error"}).outcome == "error"
+    without_wet = series.judge_series(planned, result.cases[:1])
+    assert "0 of 0 wet stops from 120 km/h count" in without_wet.reason
 
 
 def test_a_criterion_of_stops_is_judged_by_the_verdicts_of_those_that_count(judged_by):
@@ -379,14 +381,17 @@ def test_stops_on_different_rails_are_judged_apart(judged_by):
 
 
 def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(judged_by):
-    planned = judged_by(RAILS, BOTH_RAILS)
+    # A second criterion of K_wet does not count the stops twice.
+    k_wet = RAILS.splitlines(keepends=True)[3]
+    planned = judged_by(RAILS + k_wet.replace("id: k-wet", "id: again"), BOTH_RAILS)
     assert [stop.role for stop in planned.stops] == ["dry", *["wet"] * 4, *["bypassed"] * 2]
     assert {stop.case.scenario.rig.wsp for stop in planned.stops[5:]} == {"bypassed"}
     # Wheels lock: that they miss the criteria is what is expected, and no reason to keep their recordings.
     assert {str(stop.case.scenario.expect) for stop in planned.stops[5:]} == {"fail"}
     distances = [[459.99, 460.01], 500.0, 510.0, 600.0, 610.0]
     better, without = judge(planned, distances, {480.0: "fail"}, 480.0), judge(planned, distances)
-    assert better.bypassed_k_wet.estimate.value == pytest.approx(400.0 / 420.0)
+    estimate = better.bypassed_k_wet.estimate
+    assert (estimate.value, estimate.stops) == (pytest.approx(400.0 / 420.0), 2)
     assert (better.criteria, better.speeds, better.outcome) == (
         *(without.criteria, without.speeds, without.outcome),
     )

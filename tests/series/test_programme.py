@@ -11,10 +11,12 @@ import yaml
 import uictest
 from uictest.cli.commands.schema import SchemaKind, schema_text
 from uictest.cli.entry import execute
+from uictest.judging.evaluation import Verdict
 from uictest.judging.series import Limits, judge_programme
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.series import load_programme
+from uictest.report.programme import MetRange, programme_campaign
 from uictest.runs import programme as programmes
 
 PROGRAMME = """\
@@ -100,7 +102,7 @@ def test_stops_of_a_test_have_seeds_that_follow_and_decide_nothing_by_themselves
     assert wet[0].scenario.expect.invalid == ("initial-adhesion", "minimum-slide", "braking-distance")
 
 
-def judged(planned, distances, validity="valid"):
+def judged(planned, distances):
     """Return the verdicts of a programme whose stops have these distances in m; NaN: no standstill."""
     results = {result.id: result for result in uictest.run(planned.cases[:1])}
     [model] = results.values()
@@ -120,6 +122,7 @@ def judged(planned, distances, validity="valid"):
         ((460.0, 690.1, 680.0), "some met"),
         ((460.0, 600.0, math.nan), "no standstill"),
         ((math.nan, 600.0, 600.0), "no reference"),
+        ((math.nan, math.nan, 600.0), "no standstill"),
     ],
 )
 def test_each_stop_and_the_mean_are_held_against_the_reference(programme, distances, status):
@@ -127,6 +130,32 @@ def test_each_stop_and_the_mean_are_held_against_the_reference(programme, distan
     assert tests["wet"].status == status
     if not math.isnan(distances[0]):
         assert tests["wet"].limits == Limits(largest=1.5 * distances[0])
+
+
+def test_a_reference_of_which_a_stop_is_missing_is_none(programme):
+    planned = programme(PROGRAMME.replace("{name: dry,", "{name: dry, stops: 2,"))
+    model = uictest.run("dry-120")[0]
+    results = [replace(model, id=case.id) for case in planned.cases if case.id != "own.dry[stop=2]"]
+    assert [test.status for test in judge_programme(planned, results)] == ["not run", "no reference"]
+
+
+def test_a_stop_that_is_not_shown_to_be_a_test_meets_nothing(programme):
+    """A criterion of validity that lacks data, not one that does not apply."""
+    planned = programme()
+    model = uictest.run("slip-120")[0]
+    first, *others = model.criteria
+    open_one = (replace(first, status="inconclusive"), *others)
+    results = [replace(model, id=case.id, criteria=open_one) for case in planned.cases]
+    assert {test.valid_stops for test in judge_programme(planned, results)} == {0}
+
+
+def test_of_stops_that_are_not_all_tests_it_is_said_how_many_are(programme):
+    planned = programme()
+    wet = judged(planned, (460.0, 680.0, 685.0))["wet"]
+    no_slide = Verdict("slid", "validity", 0.0, "%", 35.0, None, -35.0, "fail", "rolled")
+    wet = replace(wet, stops=(wet.stops[0], replace(wet.stops[1], criteria=(no_slide,))))
+    [row] = programme_campaign(planned.file, [wet], (), strict=False).tables[0].table.rows
+    assert (row["valid"], row["valid_stops"]) == ("1 not judged, 1 no", 1)
 
 
 def test_a_limit_excludes_its_ends_and_what_is_not_known():
@@ -138,6 +167,21 @@ def test_a_limit_excludes_its_ends_and_what_is_not_known():
         False,
         False,
     ]
+
+
+@pytest.mark.parametrize(
+    ("intervals", "judged", "text"),
+    [
+        ((), True, "none"),
+        (((-math.inf, math.inf),), True, "all"),
+        (((-math.inf, 0.06), (0.08, math.inf)), True, "up to 0.06, from 0.08 on"),
+        (((0.06, 0.07123), (0.09, 0.09)), False, "0.06 to 0.0712, at 0.09 *"),
+    ],
+)
+def test_intervals_of_friction_say_where_the_search_ended_and_what_no_criterion_judged(
+    intervals, judged, text
+):
+    assert MetRange("wet", "wet", intervals, judged, 9).text == text
 
 
 def rows_of(output, name):
@@ -154,8 +198,10 @@ def test_the_exit_code_is_neutral_unless_asked_and_each_test_is_a_testcase(write
     assert execute(["run", path, "-o", str(tmp_path / "neutral")]) == 0
     shown = capsys.readouterr().out
     assert "SHOWN: 1 of 2 tests with a limit met, 1 missed" in shown
-    assert execute(["run", path, "--strict", "-o", str(tmp_path / "strict")]) == 1
-    assert "FAILED: 1 of 2 tests with a limit met, 1 missed" in capsys.readouterr().out
+    assert execute(["run", path, "--strict", "--format", "github", "-o", str(tmp_path / "strict")]) == 1
+    shown = capsys.readouterr().out
+    assert "FAILED: 1 of 2 tests with a limit met, 1 missed" in shown
+    assert "::error file=own.programme.yaml,title=fail dry::missed: 472.2 m" in shown
     outcomes = {}
     for folder in ("neutral", "strict"):
         suite = ElementTree.parse(tmp_path / folder / "latest" / "junit.xml").getroot()
@@ -185,6 +231,7 @@ def test_the_interval_of_friction_ends_where_the_verdict_turns(write, tmp_path):
     assert (row["test"], rail, row["validity_judged"]) == ("wet", "wet-cleaning", True)
     [shown] = rows_of(tmp_path / "runs", "friction")
     assert shown == {"rail": rail, "wet": f"{low:.3g} to {high:.3g}"}
+    assert "sought from 0.05 to 0.08, in" in (tmp_path / "runs" / "latest" / "index.html").read_text("utf-8")
     limit = 1.5 * uictest.run("dry-120")[0].measures["braking_distance_m"]
 
     def met(friction):
@@ -197,6 +244,37 @@ def test_the_interval_of_friction_ends_where_the_verdict_turns(write, tmp_path):
     assert [met(each) for each in (low - 0.003, low + 0.0001, high - 0.0001, high + 0.003)] == [
         *(False, True, True, False)
     ]
+
+
+CRASHING = """
+from uictest.controllers import Outputs
+
+
+class Wsp:
+    def __init__(self, config):
+        pass
+
+    def reset(self):
+        self.cycles = 0
+
+    def step(self, inputs):
+        self.cycles += 1
+        if self.cycles < 800 and min(inputs.wheel_speed) < 1.0:
+            raise RuntimeError("a wheelset locks")
+        return Outputs(hold=[False] * 4, vent=[False] * 4)
+"""
+
+
+def test_a_stop_along_friction_that_cannot_be_run_fails_and_says_nothing_of_friction(write, tmp_path, capsys):
+    write("wsp.py", CRASHING)
+    part = write("wsp.yaml", "schema: uictest/controller/1\nname: w\npython: wsp.py\nclass: Wsp\n")
+    text = PROGRAMME.replace("0.061}", "0.3}") + SCAN
+    path, runs = str(write("own.programme.yaml", text)), tmp_path / "runs"
+    assert execute(["run", path, "--set", f"controller={part}", "-o", str(runs)]) == 1
+    assert "6 stops along friction could not be run" in capsys.readouterr().out
+    [row] = rows_of(runs, "friction")
+    assert row["wet"] == "6 of 6 stops could not be run"
+    assert rows_of(runs, "intervals") == []
 
 
 def test_the_shipped_programme_is_what_was_read(write):
@@ -230,14 +308,16 @@ def test_the_shipped_programme_is_what_was_read(write):
 
 def test_a_wsp_that_locks_wheels_meets_no_test_unnoticed(write, tmp_path, capsys):
     """The distances of locked wheels on a rail that they clean are short."""
-    path = str(write("own.programme.yaml", PROGRAMME))
+    free = "  - {name: free, scenario: slip-120, set: {rail.condition: wet-cleaning, rail.friction: 0.061}}\n"
+    path = str(write("own.programme.yaml", PROGRAMME + free))
     bypassed = ["run", path, "--set", "rig.wsp=bypassed", "-o", str(tmp_path / "runs")]
     assert execute(bypassed) == 0
     assert "our own criteria missed: locked-wheels" in capsys.readouterr().out
     assert execute([*bypassed, "--strict"]) == 1
     suite = ElementTree.parse(tmp_path / "runs" / "latest" / "junit.xml").getroot()
-    [wet] = [case for case in suite.iter("testcase") if case.get("name") == "wet"]
-    assert "locked-wheels" in wet.find("failure").get("message")
+    failures = {case.get("name"): case.find("failure") for case in suite.iter("testcase")}
+    assert failures.pop("dry") is None
+    assert ["locked-wheels" in failures[name].get("message") for name in ("wet", "free")] == [True, True]
 
 
 def interrupting(calls, module, monkeypatch, function):
@@ -283,14 +363,22 @@ def test_a_stop_that_ends_undecided_is_judged_by_the_programme(write, tmp_path, 
     assert execute(["run", path, "--strict", "-o", str(tmp_path / "runs")]) == 1
 
 
-def test_a_difference_from_the_baseline_is_a_failed_testcase_of_the_run(write, tmp_path):
-    path, kept = str(write("own.programme.yaml", PROGRAMME)), str(tmp_path / "kept")
+def test_a_difference_from_the_baseline_is_a_failed_testcase_of_the_run(write, tmp_path, capsys):
+    """Also of a stop that ends undecided, of which the programme decides."""
+    short = PROGRAMME.replace("0.061}", "0.061, simulation.maximum_duration: 30 s}")
+    path, kept = str(write("own.programme.yaml", short)), str(tmp_path / "kept")
     assert execute(["run", path, "--baseline", kept, "--accept", "-q", "-o", str(tmp_path / "runs")]) == 0
     changed = ["run", path, "--baseline", kept, "--set", "vehicle.body.mass=36 t", "-q"]
+    capsys.readouterr()
     assert execute([*changed, "-o", str(tmp_path / "runs")]) == 1
+    assert "own.wet[stop=1] differs from the baseline" in capsys.readouterr().out
     suite = ElementTree.parse(tmp_path / "runs" / "latest" / "junit.xml").getroot()
-    failed = [case.get("name") for case in suite.iter("testcase") if case.find("failure") is not None]
-    assert "own.wet[stop=1]" in failed
+    failed = {
+        case.get("name"): case.find("failure").get("type")
+        for case in suite.iter("testcase")
+        if case.find("failure") is not None
+    }
+    assert failed["own.wet[stop=1]"] == "baseline"
 
 
 def test_in_python_the_tests_stand_beside_the_cases(write):
@@ -300,6 +388,8 @@ def test_in_python_the_tests_stand_beside_the_cases(write):
     assert results.met
     with pytest.raises(ValueError, match="is a programme"):
         uictest.load(path)
+    with pytest.raises(ValueError, match="a programme is run alone"):
+        uictest.run([path, "dry-120"])
     assert execute(["list", str(path)]) == 0
 
 

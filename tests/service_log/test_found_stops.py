@@ -293,6 +293,14 @@ def test_a_step_of_the_clock_hides_no_stop_and_a_log_may_span_weeks(tmp_path, ro
     assert second.remarks == ()
 
 
+def test_of_many_steps_of_the_clock_the_first_three_are_told(tmp_path):
+    columns = table(["stop"])
+    for row in range(200, 250, 10):
+        columns["time"][row:] += 60.0
+    [stop] = find_stops([written(columns, tmp_path / "log.parquet")], MAP).stops
+    assert stop.remarks[3:] == ("2 further steps of the clock",)
+
+
 @pytest.mark.parametrize("offset", [0.0, 0.3e5, -0.3e5])
 def test_noise_and_offset_of_a_pressure_invent_no_application(tmp_path, offset):
     columns = table(["stop", "released", "parked", "stop"])
@@ -335,6 +343,7 @@ def test_files_are_one_log_and_the_stops_stay_when_it_cannot_be_read_again(tmp_p
     paths = [written(part, tmp_path / f"{k}.parquet") for k, part in enumerate(parts)]
     log = find_stops(paths, MAP)
     assert [event.file for event in log.stops] == paths
+    assert log.stops[1].remarks == ("runs backwards: speeds are recorded with their sign changed",)
     first, second = sorted(write_stops(log, MAP, tmp_path / "stops"))
     assert stop_in(first, MAP).standstill == pytest.approx((30.0, 450.0), rel=0.02)
     assert stop_in(second, MAP).recording["speed"][0] > 14.0

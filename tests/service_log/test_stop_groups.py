@@ -50,9 +50,11 @@ def test_stops_of_one_deceleration_have_one_distance(speeds, deceleration):
 
 
 def test_speeds_between_two_groups_are_in_none():
-    assert stop(1, 115.0, 400.0).nominal is None
+    assert [stop(1, speed, 400.0).nominal for speed in (115.0, 117.0, 123.0, 123.1)] == [
+        *(None, 120.0, 120.0, None)
+    ]
     (row,) = dry_table([stop(1, 115.0, 400.0), stop(2, 82.0, 200.0)]).table.rows
-    assert row["speed_kmh"] == 80.0
+    assert (row["speed_kmh"], row["accepted"]) == (80.0, "one stop alone")
 
 
 @pytest.mark.parametrize(

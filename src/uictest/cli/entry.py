@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import traceback
 from collections.abc import Callable, Sequence
 from importlib import import_module
@@ -19,6 +20,7 @@ from uictest.cli.options import JUNIT, TRUSTED_FOLDERS, is_replaceable, option
 from uictest.cli.output import ExitCode, data, lost_data, message, use_safe_encoding
 from uictest.core import files
 from uictest.plans import scenario
+from uictest.plans.scenario import yaml
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -171,8 +173,9 @@ def _ending_of_command(arguments: tuple[str, ...]) -> Ending:
         return Ending(_call(arguments))
     except typer.TyperException as error:
         option = getattr(error, "option_name", "")
-        message(f"uictest: {error.format_message()}\n{_option_advice(arguments, option)}")
-        return Ending(ExitCode.USAGE, [error.format_message()], option)
+        reason = _usage_reason(error)
+        message(f"uictest: {reason}\n{_option_advice(arguments, option)}")
+        return Ending(ExitCode.USAGE, [reason], option)
     except scenario.ScenarioErrors as error:
         for trace in error.traces:
             message(trace)
@@ -211,7 +214,35 @@ def _option_advice(arguments: Sequence[str], option: str) -> str:
         return f"In place of {option} write: {otherwise}"
     if command == "reproduce":
         return "The studies are run by './reproduce' in a checkout of uictest."
-    return "Try 'uictest --help', or 'uictest COMMAND --help'."
+    return f"Try 'uictest {f'{command} ' if command in _NAMES else ''}--help'."
+
+
+_REASONS: Final = {
+    "int_parsing": "is not a whole number",
+    "float_parsing": "is not a number",
+    "greater_than_equal": "is too small: at least {ge}",
+    "less_than_equal": "is too large: at most {le}",
+    "finite_number": "is not a finite number",
+}
+"""Kind of error in the value of an option -> what is wrong with the value."""
+
+
+def _usage_reason(error: typer.TyperException) -> str:
+    """Return why arguments are refused; of a value that was validated: the value, and what is accepted."""
+    from pydantic import ValidationError  # which --help does not need
+
+    text, cause = error.format_message(), error.__cause__
+    if not isinstance(cause, ValidationError):
+        return text
+    [first, *_] = cause.errors(include_url=False)
+    reason = _REASONS.get(first["type"])
+    if reason is not None:
+        reason = f"{first['input']!r} {reason.format(**first.get('ctx', {}))}"
+    else:
+        reason = first["msg"].removeprefix("Value error, ").rstrip(".")
+        guess = yaml.nearest(str(first["input"]), re.findall(r"'([^']+)'", reason)[1:])
+        reason += f"; did you mean {guess!r}?" if guess else ""
+    return text.replace(first["msg"], reason)
 
 
 def _is_of_argument(error: Exception, arguments: Sequence[str]) -> bool:

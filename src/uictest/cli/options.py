@@ -49,7 +49,7 @@ def option(spelling: str, meaning: str, **settings: Any) -> Any:
 
 
 def argument(spelling: str, meaning: str, **settings: Any) -> Any:
-    """Return an argument by how `--help` spells it, such as `FILE...`, and what it is."""
+    """Return an argument by what `--help` calls it, such as `FILE`, and what it is."""
     return typer.Argument(metavar=spelling, help=meaning, **settings)
 
 
@@ -62,8 +62,7 @@ def _parsed_jobs(text: str) -> int:
 
 
 Paths = Annotated[
-    list[Path] | None,
-    argument("[PATH]...", "Scenario files or folders [default: scenarios].", show_default=False),
+    list[Path] | None, argument("PATH", "Scenario files or folders [default: scenarios].", show_default=False)
 ]
 Expression = Annotated[
     str | None,
@@ -90,7 +89,8 @@ Overrides = Annotated[
     ),
 ]
 Seed = Annotated[
-    int | None, option("--seed", "Seed of sensor noise and random rails in every case.", min=0, max=2**32 - 1)
+    int | None,
+    option("--seed N", "Seed of sensor noise and random rails in every case.", min=0, max=2**32 - 1),
 ]
 InProcess = Annotated[
     bool,
@@ -196,10 +196,7 @@ JUnitFile = Annotated[Path | None, option(f"{JUNIT} FILE", "Also write the JUnit
 Jobs = Annotated[int, option("-n --jobs N|auto", "Number of threads.", parser=_parsed_jobs)]
 RunFormat = Annotated[
     Format,
-    option(
-        "--format",
-        "Output on stdout: text (a table or lines), json (results.json) or github (lines, annotations).",
-    ),
+    option("--format", "Output on stdout: text, json (results.json) or github (text and annotations)."),
 ]
 CheckFormat = Annotated[
     Format, option("--format", "Output on stdout: text (none), json (the errors), github (annotations).")

@@ -15,7 +15,7 @@ from uictest.plans import scenario
 from uictest.recorded import field_data
 from uictest.rig import bench
 
-Files = Annotated[list[Path], argument("FILE...", "Recordings.", show_default=False)]
+Files = Annotated[list[Path], argument("FILE", "Recordings.", show_default=False)]
 MapName = Annotated[
     str, option("--map NAME|FILE", "Channel map: a preset (uictest, common-names) or a YAML file.")
 ]

@@ -44,8 +44,18 @@ def run_suites(content: RunContent, *, with_properties: bool = False) -> Iterato
     its tests, and for each stop that could not be run or fails a check. Cases with a controller from outside
     have a suite of their own for each such program, whose properties say which it is. A series is a suite of
     its own, with one testcase per criterion. With `with_properties` testcases have those by which Polarion
-    and Xray know the test case and its requirements.
+    and Xray know the test case and its requirements. Where a run ended before all of it was run and nothing
+    in it failed, a testcase says so.
     """
+    suites = list(_suites_of_run(content, with_properties=with_properties))
+    yield from suites
+    statuses = {testcase.status for suite in suites for testcase in suite.testcases}
+    if not content.complete and statuses.isdisjoint(("failure", "error")):
+        lines = ["incomplete: not all that was selected was run"]
+        yield Suite("uictest", [Testcase("uictest", "uictest run", "error", lines)])
+
+
+def _suites_of_run(content: RunContent, *, with_properties: bool) -> Iterator[Suite]:
     baseline = content.baseline
     missing = [
         Testcase(
@@ -128,7 +138,7 @@ def _testcase(content: RunContent, result: evaluation.CaseResult, with_propertie
     status: TestcaseStatus = "skipped" if result.outcome == "skipped" else "passed"
     if result.outcome == "error":
         status = "error"
-    elif differs or not result.met:
+    elif not content.passes(result):
         status = "failure"
     lines = [*real_time_sentences(result), *domain_sentences(result), *implausible_sentences(result)]
     lines += [*changes_line(result), *firmness_sentences(result)]
@@ -145,7 +155,7 @@ def _testcase(content: RunContent, result: evaluation.CaseResult, with_propertie
         result.id,
         status,
         lines,
-        "baseline" if differs and result.met else "",
+        "baseline" if differs and content.expected(result) else "",
         result.duration,
         named | firmness_property(result),
     )
@@ -153,7 +163,7 @@ def _testcase(content: RunContent, result: evaluation.CaseResult, with_propertie
 
 def wsp_lines(content: RunContent, result: evaluation.CaseResult) -> list[str]:
     """Return what the recording shows of why a case failed, and the command that runs it again."""
-    command = rerun_command(content.manifest, result.scenario, result.id)
+    command = rerun_command(content, result.scenario, result.id)
     causes = [f"cause: {cause}" for cause in case_causes(result, content.traces.get(result.id))]
     return [*causes, *([f"run again: {command}"] if command else [])]
 
@@ -209,9 +219,12 @@ def annotation(
 
 
 def run_annotations(content: RunContent) -> Iterator[str]:
-    """Yield the annotations of a run: of cases, of what differs from the baseline alone, of series."""
+    """Yield the annotations of a run: of cases, tests of a programme, what only the baseline has, series."""
     for result in content.all_results:
         yield from case_annotations(content, result)
+    for test in content.campaign.tests if content.campaign else ():
+        if test.status == "failure":  # its stops are of the file of the programme
+            yield annotation(content.results[0].scenario, f"fail {test.name}", "\n".join(test.lines))
     if content.baseline is not None:
         yield from missing_annotations(content.baseline)
     for series in content.series:

@@ -53,6 +53,15 @@ class StatusChange:
         was, is_now = (status in ("pass", "skipped") for status in (self.first, self.second))
         return "turned" if was == is_now else "fixed" if is_now else "new"
 
+    @property
+    def words(self) -> str:
+        """What turned, in words; what lacks data for a verdict is not missed."""
+        if self.first is None or self.second is None:
+            return f"on the {'second' if self.first is None else 'first'} side alone"
+        if self.turn == "new":
+            return "newly missed" if self.second == "fail" else "no longer shown to be met"
+        return "now met" if self.turn == "fixed" else "turned otherwise"
+
 
 @dataclass(frozen=True, slots=True)
 class Difference:

@@ -28,6 +28,7 @@ class MetRange(NamedTuple):
         intervals: lowest and highest friction of each interval; an end of the search is infinite.
         judged: whether criteria say if its stops are tests.
         stops: stops that were made for it.
+        not_run: stops that could not be run, with which nothing is known.
     """
 
     test: str
@@ -35,10 +36,13 @@ class MetRange(NamedTuple):
     intervals: tuple[tuple[float, float], ...]
     judged: bool
     stops: int
+    not_run: int = 0
 
     @property
     def text(self) -> str:
         """The intervals as a table shows them."""
+        if self.not_run:
+            return f"{self.not_run} of {counted(self.stops, 'stop')} could not be run"
         found = ", ".join(_interval_text(low, high) for low, high in self.intervals) or "none"
         return found if self.judged else f"{found} *"
 
@@ -79,21 +83,33 @@ def programme_campaign(
         ranges: where along friction they are met.
         strict: whether a test that is not valid and met fails.
     """
-    counts = Counter(test.status for test in tests)
-    limited = sum(test.limits is not None for test in tests)
-    others = [f"{count} {status}" for status, count in counts.items() if status not in ("met", "no limit")]
-    also = list(dict.fromkeys(name for test in tests for name in test.missed_requirements))
-    others += [f"our own criteria missed: {listed(also)}"] if also else []
-    headline = ", ".join([f"{counts['met']} of {limited} tests with a limit met", *others])
     noted = [test.planned.test for test in tests if test.planned.test.note]
     notes = [f"{test.name}: {test.note}" for test in noted]
     return Campaign(
         sentences=(f"Limits: {file.mark}.", *file.notes, *notes),
         tables=(_tests_table(tests), *_range_tables(file, ranges)),
         title=file.title or file.name,
-        headline=headline,
+        headline=_headline(tests, ranges),
         tests=tuple(_ci_test(test, ranges, strict=strict) for test in tests),
     )
+
+
+def _headline(tests: Sequence[JudgedTest], ranges: Sequence[MetRange]) -> str:
+    """Return how many tests with a limit are met, and what became of the others."""
+    counts = Counter((test.limits is not None, test.status) for test in tests)
+    limited = sum(test.limits is not None for test in tests)
+    met = f"{counts.pop((True, 'met'), 0)} of {counted(limited, 'test')} with a limit met"
+    parts = [met if limited else "no test with a limit"]
+    parts += [
+        f"{count} {status}" if has_limit else f"{count} without a limit: {status}"
+        for (has_limit, status), count in counts.items()
+        if status != "no limit"
+    ]
+    if also := list(dict.fromkeys(name for test in tests for name in test.missed_requirements)):
+        parts.append(f"our own criteria missed: {listed(also)}")
+    if not_run := sum(each.not_run for each in ranges):
+        parts.append(f"{counted(not_run, 'stop')} along friction could not be run")
+    return ", ".join(parts)
 
 
 def _tests_table(tests: Sequence[JudgedTest]) -> CampaignTable:
@@ -174,6 +190,7 @@ def _range_tables(file: ProgrammeFile, ranges: Sequence[MetRange]) -> Iterator[C
         {"test": each.test, "rail": each.rail, "low": _finite(low), "high": _finite(high)}
         | {"validity_judged": each.judged, "stops": each.stops}
         for each in ranges
+        if not each.not_run
         for low, high in each.intervals
     ]
     basis = f"an end that is empty lies outside of {low} to {high}"
@@ -181,14 +198,17 @@ def _range_tables(file: ProgrammeFile, ranges: Sequence[MetRange]) -> Iterator[C
 
 
 def _ci_test(test: JudgedTest, ranges: Sequence[MetRange], *, strict: bool) -> CampaignTest:
-    record = _record(test)
+    """Return a test as a CI server is told of it; a stop that cannot be run fails, strict or not."""
+    record, also = _record(test), test.missed_requirements
     name = test.planned.test.name
+    of_test = [each for each in ranges if each.test == name]
     distances = f"{record['distances']} m" if test.distances else "no stop"
     message = f"{test.status}: {distances} (limit {record['limit']}), valid test: {record['valid']}"
-    lines = (message, *(f"friction on {each.rail}: {each.text}" for each in ranges if each.test == name))
-    if also := test.missed_requirements:
-        lines = (f"{message}; our own criteria missed: {', '.join(also)}", *lines[1:])
-    elif test.status == "met":
+    message += f"; our own criteria missed: {', '.join(also)}" if also else ""
+    lines = (message, *(f"friction on {each.rail}: {each.text}" for each in of_test))
+    if any(each.not_run for each in of_test):
+        return CampaignTest(name, lines, "failure")
+    if test.status == "met" and not also:
         return CampaignTest(name, lines, "passed")
     fails = strict and (test.limits is not None or bool(also))
     return CampaignTest(name, lines, "failure" if fails else "skipped")

@@ -103,9 +103,7 @@ def _remarks(
 def last_lines(content: RunContent, ending: str, width: int, *, coloured: bool = False) -> list[str]:
     """Return the last sentence of a run: whether it passed, what failed, and how it ended."""
     summary = run_summary(content)
-    word, tone = ("FAILED", "bad") if summary.failed else ("PASSED", "good")
-    if summary.informs and not summary.failed:
-        word, tone = "SHOWN", "odd"
+    word = "PASSED" if summary.answer == "allowed" else summary.answer.upper()
+    tone: Tone = "bad" if word == "FAILED" else "good" if word == "PASSED" else "odd"
     first, *further = wrapped_sentence(f"{word}: {summary.headline}{ending}", width)
-    shown: Tone | None = tone if coloured else None  # type: ignore[assignment]
-    return [f"{coloured_text(word, shown)}{first.removeprefix(word)}", *further]
+    return [f"{coloured_text(word, tone if coloured else None)}{first.removeprefix(word)}", *further]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 from uictest.core.document import Block, Lines, Tone
 from uictest.core.measures import without_wheelset
@@ -108,6 +108,7 @@ class FailureGroup:
         worst: id of the case that speaks for the group.
         command: runs the worst case again; empty where nothing can.
         check: tries the controller by itself, where its checks may tell why it fails.
+        of_series: whether it is of a series, which may have the id of a case.
 
     """
 
@@ -120,6 +121,7 @@ class FailureGroup:
     worst: str = ""
     command: str = ""
     check: str = ""
+    of_series: bool = False
 
     @property
     def heading(self) -> str:
@@ -176,14 +178,16 @@ class FailureGroup:
         return "" if miss.worst.id == self.worst else f", {name}"
 
 
+Answer = Literal["failed", "incomplete", "shown", "allowed", "passed"]
+
+
 @dataclass(frozen=True, slots=True)
 class RunSummary:
     """What a reader of a run must know first.
 
     Args:
         headline: the answer in one sentence.
-        failed: whether anything is not as expected.
-        informs: whether a programme is shown that decides nothing but by what failed.
+        answer: that in a word: of a programme, which decides nothing but by what failed, `shown`.
         subject: what was tested: controller and vehicle.
         groups: what is not as expected, errors first.
         allowed: what was missed and is allowed.
@@ -192,8 +196,7 @@ class RunSummary:
     """
 
     headline: str
-    failed: bool
-    informs: bool
+    answer: Answer
     subject: str
     groups: Sequence[FailureGroup]
     allowed: Sequence[str]
@@ -223,13 +226,18 @@ def run_summary(content: RunContent) -> RunSummary:
     """Return the summary of a run."""
     groups = list(_groups(content))
     of_programme = bool(content.campaign and content.campaign.tests)  # which judges in place of the cases
+    allowed = [] if of_programme else list(allowed_sentences(content.results))
+    answer: Answer = "shown" if of_programme else "allowed" if allowed else "passed"
+    if groups or (content.campaign and content.campaign.failed):
+        answer = "failed"
+    elif not content.complete:
+        answer = "incomplete"
     return RunSummary(
         headline=_headline(content, groups),
-        failed=bool(groups) or bool(content.campaign and content.campaign.failed),
-        informs=of_programme,
+        answer=answer,
         subject=_subject(content),
         groups=groups,
-        allowed=[] if of_programme else list(allowed_sentences(content.results)),
+        allowed=allowed,
         close=[] if of_programme else list(_close_groups(close_calls(content.results, content.series))),
     )
 
@@ -262,12 +270,9 @@ def _headline(content: RunContent, groups: Sequence[FailureGroup]) -> str:
     """Return how many cases failed, which and by what: `4 of 34 cases failed: wet-80 (locked-wheels)`."""
     if not groups:
         return content.tally
-    ids_of_series = {series.id for series in content.series}
     parts: list[str] = []
     for kind, of_series in product(MISSES, (False, True)):
-        of_kind = [
-            group for group in groups if (group.kind, group.worst in ids_of_series) == (kind, of_series)
-        ]
+        of_kind = [group for group in groups if (group.kind, group.of_series) == (kind, of_series)]
         names = dict.fromkeys(name for group in of_kind for name in group.ids)
         if not names:
             continue
@@ -282,12 +287,16 @@ def _headline(content: RunContent, groups: Sequence[FailureGroup]) -> str:
 
 
 def _headline_names(groups: Sequence[FailureGroup]) -> str:
-    """Return the scenarios or series of groups, with the criterion that most cases of each miss."""
+    """Return the scenarios or series of groups, with the criterion that most cases of each miss.
+
+    Groups of one scenario are told apart by the ids of their cases.
+    """
+    scenarios = [tuple(dict.fromkeys(name.partition("[")[0] for name in group.ids)) for group in groups]
     texts = []
-    for group in groups:
-        scenarios = listed(list(dict.fromkeys(name.partition("[")[0] for name in group.ids)))
+    for group, names in zip(groups, scenarios, strict=True):
+        named = listed(names if scenarios.count(names) == 1 else group.ids)
         missed = max(group.misses, key=lambda miss: len(miss.cases)).verdict.id if group.misses else ""
-        texts.append(f"{scenarios} ({missed})" if missed else scenarios)
+        texts.append(f"{named} ({missed})" if missed else named)
     shown = texts[:2]
     return f": {', '.join(shown)}{f' and {len(texts) - 2} more' if len(texts) > 2 else ''}"
 
@@ -297,7 +306,7 @@ def _groups(content: RunContent) -> Iterator[FailureGroup]:
     by_kind: dict[MissKind, list[evaluation.CaseResult]] = {}
     for result in content.results:
         if not content.passes(result):
-            kind: MissKind = "differs" if result.met else miss_kind(result)
+            kind: MissKind = "differs" if content.expected(result) else miss_kind(result)
             by_kind.setdefault(kind, []).append(result)
     for kind in MISSES:
         cases = by_kind.get(kind, ())
@@ -308,16 +317,18 @@ def _groups(content: RunContent) -> Iterator[FailureGroup]:
         for name, file in content.baseline.beside_cases.items():
             in_run = name in content.baseline.series
             sentences = difference_sentences(content.differences(name), _DIFFERENCES)
-            command = rerun_command(content.manifest, file, name) if in_run else ""
+            command = rerun_command(content, file, name) if in_run else ""
             kind = "differs" if in_run else "missing"
-            yield FailureGroup(kind, [name], "", sentences=sentences, worst=name, command=command)
+            yield FailureGroup(
+                kind, [name], "", sentences=sentences, worst=name, command=command, of_series=in_run
+            )
     for series in content.series:
         if not series.met:
             yield _series_group(content, series)
 
 
 def _series_group(content: RunContent, series: SeriesResult) -> FailureGroup:
-    command = rerun_command(content.manifest, series.file, series.id)
+    command = rerun_command(content, series.file, series.id)
     missed = [
         f"{judged.verdict.id}: {series_value_text(judged)}"
         for judged in series.criteria
@@ -326,7 +337,9 @@ def _series_group(content: RunContent, series: SeriesResult) -> FailureGroup:
     if missed and series.outcome == "error":  # some stop failed to run
         missed.insert(0, series.reason)
     sentences = list(map(printable, missed)) or series_explanation(series)
-    return FailureGroup("series", [series.id], "", sentences=sentences, worst=series.id, command=command)
+    return FailureGroup(
+        "series", [series.id], "", sentences=sentences, worst=series.id, command=command, of_series=True
+    )
 
 
 def _reasons(content: RunContent, kind: MissKind, case: evaluation.CaseResult) -> set[tuple[str, str]]:
@@ -393,7 +406,7 @@ def _group(content: RunContent, kind: MissKind, cases: Sequence[evaluation.CaseR
         causes,
         sentences,
         worst.id,
-        rerun_command(content.manifest, worst.scenario, worst.id),
+        rerun_command(content, worst.scenario, worst.id),
         _check_of_controller(content, worst) if kind == "fail" and causes else "",
     )
 

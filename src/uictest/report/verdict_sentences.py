@@ -153,21 +153,21 @@ def explanation(
     instants = instants or {}
     deciding = sorted(_deciding_verdicts(result), key=lambda verdict: not verdict.is_check)
     lines = {verdict.id: verdict_sentence(verdict) for verdict in deciding}
-    # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
-    # without any it is all there is.
-    alone = not deciding or result.outcome == "error"
     missed = [
         missed_sentence(verdict, instants.get(verdict.id, ""))
         for verdict in decisive_verdicts(result)
         if verdict.status in ("fail", "inconclusive")
     ]
     unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in lines.values()]
+    if result.outcome == "error" and result.reason:
+        missed.insert(0, result.reason)
     return [
         outcome_sentence(result, missed),
         *([statement_sentence(result)] if result.criteria and not briefly else ()),
         *dict.fromkeys([*cause_sentences(result), *rail_sentences(result)]),
         *repeat_sentences(result),
-        *([printable(result.reason)] if result.reason and alone else ()),
+        # With criteria the reason of a result repeats theirs; without any it is all there is.
+        *([printable(result.reason)] if result.reason and not deciding and result.outcome != "error" else ()),
         *(
             f"{line} (taken at {at})" if (at := instants.get(name)) else line
             for name, line in ({} if briefly else lines).items()
@@ -315,11 +315,16 @@ _BYPASSED: Final = "WSP bypassed: the controller did not act, the stop says noth
 
 
 def cause_sentences(result: evaluation.CaseResult) -> list[str]:
-    """Return the causes of an outcome that lie in the stop: faults, a bypassed WSP, too good a rail."""
+    """Return the causes of an outcome in the stop: faults, bypassed WSP, no standstill, too good a rail."""
     rail = [] if result.rail and result.rail.test_validity == "valid" else rail_sentences(result)
     bypassed = [_BYPASSED] if is_bypassed(result.parts) else []
     parameters = [parameter for part in result.parts.values() for parameter in part.parameters]
-    return [*fault_sentences(parameters), *bypassed, *rail]
+    endless = [
+        printable(each.reason)
+        for each in result.criteria
+        if each.measure == "standstill" and each.status == "inconclusive" and result.outcome == "fail"
+    ]
+    return [*fault_sentences(parameters), *bypassed, *endless, *rail]
 
 
 def rail_sentences(result: evaluation.CaseResult) -> Iterator[str]:

@@ -86,13 +86,20 @@ class _FrictionScan:
         frictions of the scan. Raises KeyboardInterrupt.
         """
         scanned = [_stops_of(found[name]) for name in self.plan.ids(np.arange(self.plan.size))]
-        valid, of_valid = self._intervals(scanned, settings, _is_valid)
-        within, of_within = self._intervals(scanned, settings, self._keeps_limit)
+        stops = [stop for of_case in scanned for stop in of_case]
+        valid, further = self._intervals(scanned, settings, _is_valid)
+        within, others = self._intervals(scanned, settings, self._keeps_limit)
+        stops += [*further, *others]
         both = [(max(a[0], b[0]), min(a[1], b[1])) for a in valid for b in within]
-        intervals = tuple(sorted((low, high) for low, high in both if low <= high))
-        judged = all(_is_judged(stop) for stops in scanned for stop in stops)
-        stops = sum(map(len, scanned)) + of_valid + of_within
-        return report.MetRange(self.name, self.rail, intervals, judged, stops)
+        judged = all(evaluation.validity_of(stop.criteria) != "not_judged" for stop in stops)
+        return report.MetRange(
+            self.name,
+            self.rail,
+            tuple(sorted((low, high) for low, high in both if low <= high)),
+            judged,
+            len(stops),
+            sum(stop.outcome == "error" for stop in stops),
+        )
 
     def _keeps_limit(self, stop: evaluation.RepeatedStop) -> bool:
         measures = stop.measures
@@ -103,8 +110,8 @@ class _FrictionScan:
         scanned: Sequence[Sequence[evaluation.RepeatedStop]],
         settings: campaign.RunSettings,
         holds: Callable[[evaluation.RepeatedStop], bool],
-    ) -> tuple[list[tuple[float, float]], int]:
-        """Return the intervals of friction in which something holds for all stops, and how many it took.
+    ) -> tuple[list[tuple[float, float]], list[evaluation.RepeatedStop]]:
+        """Return the intervals of friction in which something holds for all stops, and the stops it took.
 
         An end of the scan is infinite.
         """
@@ -125,7 +132,7 @@ class _FrictionScan:
         ends = [math.inf] if verdicts[-1] else []
         starts += [float(flip.high.text) for flip in scan.flips if not flip.met_at_low]
         ends += [float(flip.low.text) for flip in scan.flips if flip.met_at_low]
-        return list(zip(sorted(starts), sorted(ends), strict=True)), len(further)
+        return list(zip(sorted(starts), sorted(ends), strict=True)), further
 
 
 def _stops_of(result: evaluation.CaseResult) -> Sequence[evaluation.RepeatedStop]:
@@ -136,9 +143,4 @@ def _stops_of(result: evaluation.CaseResult) -> Sequence[evaluation.RepeatedStop
 
 
 def _is_valid(stop: evaluation.RepeatedStop) -> bool:
-    return all(verdict.status != "fail" for verdict in stop.criteria if verdict.layer == "validity")
-
-
-def _is_judged(stop: evaluation.RepeatedStop) -> bool:
-    statuses = [verdict.status for verdict in stop.criteria if verdict.layer == "validity"]
-    return any(status in ("pass", "fail") for status in statuses)
+    return not evaluation.why_no_test(stop.criteria)

@@ -161,6 +161,8 @@ def load_series(
 
 def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:
     """Return the message for an empty selection, with the number of cases and series and their tags."""
+    if not (cases or planned):
+        return "nothing selected: no scenario in what was given (*.yaml, *.yml)"
     of_series = {tag for one in planned for tag in one.file.tags}
     tags = sorted({tag for case in cases for tag in case.scenario.tags} | of_series)
     among = f"{report.counted(len(cases), 'case')}{f' and {len(planned)} series' if planned else ''}"

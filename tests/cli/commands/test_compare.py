@@ -89,6 +89,14 @@ def test_two_controllers_are_compared_stop_by_stop(call, scenario):
     assert "not comparable: no seed is on both sides: seeds 0..2; seeds 40..42" in other.out
 
 
+def test_nothing_that_differs_where_nothing_ran_is_no_agreement(call, scenario, workplace):
+    (workplace / "scenarios").mkdir(exist_ok=True)
+    (workplace / "scenarios/crash.py").write_text("class Wsp:\n    pass\n", "utf-8")
+    call("run", scenario("crash", "extends: slip-120\ncontroller: {python: crash.py, class: Wsp}\n"), code=3)
+    answer = call("compare", "reports/latest", "reports/latest", code=5)
+    assert "cannot be compared" in answer.out + answer.err
+
+
 def test_the_variants_of_one_run_are_compared_where_they_have_pairs(call, scenario):
     call("run", scenario("stop", WET), "--set", "controller=threshold,slip-band")
     single = call("compare", "reports/latest", "--over", "controller", code=5)

@@ -14,6 +14,7 @@ from hypothesis import given, settings, strategies as st
 from uictest.core.document import Column, Table, keyed_columns, number_text, table_of
 from uictest.report.formats.csv import ParquetRows, csv_text
 from uictest.report.formats.html import html_table
+from uictest.report.formats.text import table_lines
 from uictest.report.formats.xlsx import LONGEST_TEXT, MOST_COLUMNS, MOST_ROWS, workbook_bytes
 from uictest.report.words import csv_cell, printable
 
@@ -135,6 +136,16 @@ def test_a_damaged_file_has_no_rows(tmp_path):
     (tmp_path / "summary.parquet").write_bytes(b"PAR1 of a kind")
     with pytest.raises(ValueError, match="Parquet"):
         ParquetRows(tmp_path / "summary.parquet").table("summary")
+
+
+def test_numbers_find_no_room_before_a_name_is_broken():
+    """Numbers of rank 0, by which a run fails, are left out too: the last first."""
+    names = [Column(key="id", heading="case", value=lambda row: row, literal=True, wraps=True)]
+    numbers = [Column(heading=f"number-{n}", value=lambda _: 1.5, right=True) for n in range(9)]
+    lines = list(table_lines(Table([*names, *numbers], ["slip[friction=0.06]"]), 60))
+    assert any(line.startswith("slip[friction=0.06]  ") for line in lines)
+    assert "number-8" in lines[-1]
+    assert "number-0" in lines[0]
 
 
 def test_a_table_has_its_headings_its_rows_and_colours():

@@ -12,7 +12,7 @@ from uictest.report.case_lines import NARROW
 from uictest.report.page.margins import margins_of
 from uictest.report.page.run_page import page_html
 from uictest.report.rerun import rerun_command
-from uictest.report.summary import MOST_GROUPS
+from uictest.report.summary import MOST_GROUPS, run_summary
 from uictest.report.traces.trace import trace_of
 
 from ..builders import make_content, make_recording, make_result, make_verdict
@@ -148,6 +148,7 @@ def test_of_many_groups_the_rest_is_counted_and_every_case_has_a_row():
     html = page_html(make_content(*cases))
     assert _first(html).count('<section class="group') == MOST_GROUPS
     assert "3 more are not as expected: case-06, case-07, case-08" in _text(_first(html))
+    assert len(run_summary(make_content(*cases)).blocks) == MOST_GROUPS + 1
     assert len(re.findall(r"<tr [^>]*data-word=\"fail\"", html)) == MOST_GROUPS + 3
 
 
@@ -210,8 +211,9 @@ def test_no_margin_is_said_in_thousands_of_per_cent(changes, text):
         ("run scenarios -k slip -n 2 -o out --record all", "a/slip.yaml", "slip", "a/slip.yaml -k slip"),
         ("run --set rail.friction=0.09 --seed 3 -x", "a/slip.yaml", "slip",
          "a/slip.yaml --set rail.friction=0.09 --seed 3 -k slip"),
-        ("run --seed=3 --repeat 5 --trust more -q --in-process", "a/slip.yaml", "slip",
-         "a/slip.yaml --seed=3 --repeat 5 --trust more --in-process -k slip"),
+        ("run --seed=3 --repeat 5 --trust more -q --in-process --real-time --firm --strict", "a/slip.yaml",
+         "slip",
+         "a/slip.yaml --seed=3 --repeat 5 --trust more --in-process --real-time --firm --strict -k slip"),
         # Recorded stops, and cases that a program may have changed, have no such command.
         ("evaluate a.csv", "a.yaml", "a", ""),
         ("", "a.yaml", "a", ""),
@@ -224,5 +226,12 @@ def test_no_margin_is_said_in_thousands_of_per_cent(changes, text):
 )  # fmt: skip
 def test_the_command_that_runs_a_case_again(command, file, case_id, again):
     words = command.split() if isinstance(command, str) else command
-    found = rerun_command(RunManifest(command=("uictest", *words)), file, case_id)
-    assert found == (f"uictest run {again}" if again else "")
+    content = make_content(manifest=RunManifest(command=("uictest", *words)))
+    assert rerun_command(content, file, case_id) == (f"uictest run {again}" if again else "")
+
+
+def test_the_command_runs_no_case_whose_id_only_begins_alike():
+    results = [make_result(id=name, scenario="p.yaml") for name in ("p.wet", "p.wet-soap", "p.dry")]
+    content = make_content(*results, manifest=RunManifest(command=("uictest", "run", "p.yaml")))
+    assert rerun_command(content, "p.yaml", "p.wet").endswith(" -k 'p.wet and not p.wet-soap'")
+    assert rerun_command(content, "p.yaml", "p.dry").endswith(" -k p.dry")

@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 from pydantic import TypeAdapter
 
 from uictest.report import Frontier, OutcomeCount, SweptValue, Trend, WrittenValue
-from uictest.report.page.plot import Axis, round_step, span, spanned
+from uictest.report.page.plot import Axis, Effect, forest, round_step, span, spanned
 from uictest.report.page.sweep_lines import MOST_LINES, cell_lines, frontier_plot, trend_plot
 from uictest.report.sweep.sweep_maps import CellAxis, MapCells
 
@@ -297,3 +297,9 @@ def test_more_combinations_than_lines_are_counted_and_over_no_other_number_there
     assert (len(drawn.key), len(of_kind(drawn.plot, "line")), drawn.left_out) == (6, 6, 2)
     assert frontier(scan("b", ("1", "2", False), command="a")) is None
     assert frontier(scan("60 km/h"), scan("80 km/h")) is None
+
+
+def test_a_mean_is_filled_where_its_interval_leaves_out_zero():
+    effects = [Effect("a", 3.0, 2.0, 4.0), Effect("b", 2.0, -0.5, 4.5), Effect("c", -1.0, -1.5, -0.5)]
+    shapes = forest(effects, "", "").shapes
+    assert [shape.words[0] for shape in shapes if shape.kind == "effect clear"] == ["a", "c"]

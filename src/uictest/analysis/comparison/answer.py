@@ -20,7 +20,7 @@ from uictest.analysis.comparison.paired_stops import (
 from uictest.analysis.comparison.parameters import ParameterChange
 from uictest.analysis.comparison.tolerance import Tolerances
 from uictest.core.measures import MEASURES
-from uictest.judging.evaluation import CaseResult, Layer, Verdict
+from uictest.judging.evaluation import CaseResult, Layer, Verdict, failed_checks
 from uictest.report import (
     RunContent,
     StatusChange,
@@ -33,7 +33,6 @@ from uictest.report import (
     shared_conditions,
 )
 
-_TURNS: Final = {"new": "newly missed", "fixed": "now met", "turned": "turned otherwise"}
 LEAD: Final = "braking_distance_m"
 """The column by which a condition is better or worse, where both sides have it."""
 _LONGEST_WHERE: Final = 70
@@ -116,18 +115,18 @@ class Answer:
     def verdict(self) -> str:
         """The shortest answer."""
         first, second = short_names(self.subjects)[0], self.subjects[1]
-        counts = Counter(condition.standing for condition in self.conditions)
+        counts: Counter[str] = Counter(condition.standing for condition in self.conditions)
         total = counted(len(self.conditions), "condition")
+        count = counts[self.standing]
+        share = "" if count == len(self.conditions) else f" in {count} of {total}"
         if self.standing == "mixed":
             better, worse = counts["better"], counts["worse"]
             return f"{second} is better than {first} in {better} and worse in {worse} of {total}"
         if self.standing in ("better", "worse", "different"):
-            count = counts[self.standing]
-            share = "" if count == len(self.conditions) else f" in {count} of {total}"
             joint = "from" if self.standing == "different" else "than"
             return f"{second} is {self.standing} {joint} {first}{share}"
         if self.standing == "no difference shown":
-            return f"No difference shown between {first} and {second}"
+            return f"No difference shown between {first} and {second}{share}"
         return f"{first} and {second} cannot be compared"
 
     @property
@@ -152,7 +151,7 @@ class Answer:
         layers = {"requirement": "requirements", "validity": "validity as a test"}
         for turned in self.turned:
             criteria = turns[layers.get(turned.layer, "checks")]
-            turn = _TURNS[turned.change.turn], turned.of_series
+            turn = turned.change.words, turned.of_series
             criteria.setdefault(turned.change.criterion, Counter())[turn] += 1
         texts = [
             f"{layer}: {', '.join(f'{name} {_counts_text(counts)}' for name, counts in criteria.items())}"
@@ -223,18 +222,24 @@ def _condition(
         name = words if words != "all cases" else name
     if isinstance(group.pairs, NotPaired):
         return Condition(name, "not comparable", remark=group.pairs.reason, case=example)
+    if failed := _failed_checks(group):
+        return Condition(name, "not comparable", remark=f"checks fail: {listed(failed)}", case=example)
     by_name = {difference.quantity: difference for difference in group.pairs.differences}
     judged = [by_name[quantity] for quantity in _judged_quantities(group) if quantity in by_name]
     lead = by_name.get(LEAD) or next(iter(judged), None)
+    remarks = [_turned_text(turned, "requirement"), _turned_text(turned, "validity")]
+    if not _stop_alike(group, by_name.get(LEAD), group.pairs.pairs):
+        lead, judged = None, []
+        remarks.append("not every stop came to a standstill")
     others = tuple(difference for difference in judged if difference is not lead)
-    criteria, remark = _turned_criteria(turned, "requirement"), _turned_text(turned, "requirement")
-    remark = "; ".join(filter(None, (remark, _turned_text(turned, "validity"))))
-    if any(criteria.values()) and not all(criteria.values()):
-        standing: Standing = "better" if criteria["fixed"] else "worse"
-    elif lead is None:
-        return Condition(name, "not comparable", remark="no measure is on both sides", case=example)
+    turns = {each.change.turn for each in turned if each.layer == "requirement"} & {"new", "fixed"}
+    if len(turns) == 1:
+        standing: Standing = "better" if turns == {"fixed"} else "worse"
     else:
-        standing = lead.standing(tolerances)
+        standing = "not comparable" if lead is None else lead.standing(tolerances)
+    if lead is None and not any(remarks):
+        remarks.append("no measure is on both sides")
+    remark = "; ".join(filter(None, remarks))
     by_number = lead is not None and lead.standing(tolerances) == standing
     return Condition(name, standing, lead, others, remark, example, by_number)
 
@@ -251,20 +256,26 @@ def _judged_quantities(group: MatchedGroup) -> list[str]:
     return list(quantities)
 
 
-def _turned_criteria(turned: Iterable[TurnedVerdict], layer: str) -> dict[str, list[str]]:
-    """Return the criteria of a layer that are newly missed, `new`, and now met, `fixed`."""
-    changes = [each.change for each in turned if each.layer == layer]
-    return {
-        turn: list(dict.fromkeys(change.criterion for change in changes if change.turn == turn))
-        for turn in ("new", "fixed")
-    }
+def _failed_checks(group: MatchedGroup) -> list[str]:
+    """Return the checks of the rig or of the record that fail on a side: its numbers are not of the test."""
+    cases = [case for pair in group.common_cases for case in pair]
+    return list(dict.fromkeys(failed.id for case in cases for failed in failed_checks(case.criteria)))
 
 
-def _turned_text(turned: Sequence[TurnedVerdict], layer: str) -> str:
+def _stop_alike(group: MatchedGroup, distance: PairedDifference | None, pairs: int) -> bool:
+    """Return whether every pair of stops has a braking distance, or no stop of either side has one."""
+    stops = [figures for side in group.sides if side is not None for figures in side.stops.values()]
+    none_stops = not any(math.isfinite(figures.get(LEAD, math.nan)) for figures in stops)
+    return none_stops or (distance is not None and distance.pairs == pairs)
+
+
+def _turned_text(turned: Iterable[TurnedVerdict], layer: str) -> str:
     of_test = "test: " if layer == "validity" else ""
-    words = {"new": f"{of_test}newly missed", "fixed": f"{of_test}now met"}
-    criteria = _turned_criteria(turned, layer)
-    return "; ".join(f"{words[turn]}: {listed(names)}" for turn, names in criteria.items() if names)
+    criteria: dict[str, dict[str, None]] = {}
+    for change in (each.change for each in turned if each.layer == layer):
+        if change.turn != "turned" or None in (change.first, change.second):
+            criteria.setdefault(change.words, {})[change.criterion] = None
+    return "; ".join(f"{of_test}{words}: {listed(list(names))}" for words, names in sorted(criteria.items()))
 
 
 def _missing_requirements(matched: Iterable[MatchedGroup]) -> tuple[int, int]:
@@ -287,12 +298,11 @@ def _turned(group: MatchedGroup) -> Iterator[TurnedVerdict]:
 def _turned_between(
     case: str, first: Iterable[Verdict], second: Iterable[Verdict], *, of_series: bool = False
 ) -> Iterator[TurnedVerdict]:
-    after = {verdict.id: verdict for verdict in second}
-    for verdict in first:
-        other = after.get(verdict.id)
-        if other is not None and other.status != verdict.status:
-            change = StatusChange(verdict.status, other.status, verdict.id)
-            yield TurnedVerdict(case, verdict.layer, change, of_series)
+    before, after = ({verdict.id: verdict for verdict in side} for side in (first, second))
+    for name, known in (before | after).items():
+        status, other = (side[name].status if name in side else None for side in (before, after))
+        if status != other:
+            yield TurnedVerdict(case, known.layer, StatusChange(status, other, name), of_series)
 
 
 def _judged_changes(conditions: Iterable[Condition], tolerances: Tolerances) -> list[JudgedChange]:
@@ -342,9 +352,9 @@ def _amount(standing: Standing, conditions: Sequence[Condition], named: str) -> 
     by_number = [condition for condition in conditions if condition.by_number]
     amount, named = _difference(by_number, named) if by_number else ("", named)
     if len(by_number) < len(conditions):
-        turned = "newly missed" if standing == "worse" else "newly met"
+        turned = "no longer" if standing == "worse" else "now"
         others = f" in {len(conditions) - len(by_number)}" if by_number else ""
-        amount += f"{',' if by_number else ':'} {turned} requirements{others}"
+        amount += f"{',' if by_number else ':'} requirements {turned} met{others}"
     return amount, named
 
 
@@ -408,9 +418,12 @@ def subject_names(
     if all(controllers) and controllers[0] != controllers[1]:
         return controllers
     # The name of a part, such as `vehicle`, stands before its parameters.
-    named = sorted(changes, key=lambda change: "." in change.key)
+    told = [change for change in changes if not change.key.endswith(".sha256")] or changes
+    named = sorted(told, key=lambda change: "." in change.key)
     if named:
-        key, more = named[0].key.rpartition(".")[2], len(named) - 1
+        # Of an entry of a list the name of the list.
+        key = [part for part in named[0].key.split(".") if not part.isdigit()][-1]
+        more = len(named) - 1
         others = f" and {more} more" if more else ""
         one, other = (shortened(f"{key} {text}") + others for text in named[0].texts)
         return one, other

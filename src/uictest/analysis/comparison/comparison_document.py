@@ -87,6 +87,11 @@ class Comparison:
         return not self.beyond
 
     @property
+    def is_empty(self) -> bool:
+        """Whether nothing differs because nothing can be compared."""
+        return self.agrees and self.answer is not None and self.answer.standing == "not comparable"
+
+    @property
     def subjects(self) -> tuple[str, str]:
         """What both sides are called."""
         return (self.first, self.second) if self.answer is None else self.answer.subjects
@@ -165,6 +170,8 @@ def variants_json(run: str, compared: Sequence[Comparison]) -> str:
 
 def verdict_line(comparison: Comparison) -> str:
     """Return how many quantities differ on one line."""
+    if comparison.is_empty:
+        return comparison.verdict
     count = counted(comparison.compared, "quantity", "quantities")
     if not comparison.differences:
         return f"{count} compared, no difference"

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from statistics import median
+from statistics import fmean
 from typing import Any, Final, Literal, NamedTuple
 
 from uictest.analysis.comparison.tolerance import Tolerances
@@ -111,7 +111,7 @@ class PairedDifference:
     Args:
         quantity: a column of stops, or `largest_` and a column of wheelsets.
         unit: unit of all numbers.
-        first, second: medians of both sides over the pairs.
+        first, second: means of both sides over the pairs.
         mean: mean of the differences, with its interval by Student's t; a single pair has none.
         median: median of the differences, with its interval by order statistics.
         larger, smaller: pairs in which the second is larger, or smaller.
@@ -217,7 +217,7 @@ def _paired_difference(
     quantity: str, values: Sequence[tuple[float, float]], missing: int
 ) -> PairedDifference:
     differences = [second - first for first, second in values]
-    first, second = (median(side) for side in zip(*values, strict=True))
+    first, second = (fmean(side) for side in zip(*values, strict=True))
     mean = mean_of(differences, CONFIDENCE)
     return PairedDifference(
         quantity,

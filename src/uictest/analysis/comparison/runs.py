@@ -201,7 +201,10 @@ def _all_measures(result: evaluation.CaseResult) -> dict[str, float]:
 
 
 def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[str]:
-    """Yield the inputs that differ between two runs: they explain differences but do not count as such."""
+    """Yield what explains differences and does not count as such: a part of a run alone, and other inputs."""
+    for run in (first, second):
+        if not run.complete:
+            yield f"{run.name} is incomplete: not all that was selected was run"
     ours, theirs = first.manifest, second.manifest
     yield from _changed_inputs({"seed": ours.seed}, {"seed": theirs.seed})
     yield from _changed_inputs(ours.versions, theirs.versions, "versions: ")

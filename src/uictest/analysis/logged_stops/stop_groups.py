@@ -237,8 +237,6 @@ def outliers_of(group: Sequence[LoggedStop]) -> list[str]:
         farthest = max(apart, key=lambda name: abs(apart[name]))
         if abs(apart[farthest]) <= _ACCEPTED:
             break
-        if len(remaining) == 2:
-            return [*outliers, *apart]
         outliers.append(farthest)
         remaining = [stop for stop in remaining if stop.result.id != farthest]
     if len(outliers) > _LARGEST_MINORITY * len(group):

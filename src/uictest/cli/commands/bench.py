@@ -22,7 +22,7 @@ _FORMATS = {".parquet": "parquet", ".csv": "csv"}
 Recipe = Annotated[
     str | None,
     argument(
-        "[RECIPE]", "Recipe of the library, in 'uictest library list', or a .yaml file.", show_default=False
+        "RECIPE", "Recipe of the library, in 'uictest library list', or a .yaml file.", show_default=False
     ),
 ]
 TraceFile = Annotated[

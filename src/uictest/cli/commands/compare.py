@@ -73,6 +73,8 @@ def compare(
         for line in compared.undrawn:
             message(f"uictest: not drawn: {line}")
     message(f"uictest: {comparison.verdict_line(compared)}")
+    if compared.is_empty:
+        return ExitCode.NOTHING_SELECTED
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
 
 

@@ -44,8 +44,7 @@ CONTROLLER = "controller"
 What = Annotated[
     Path,
     argument(
-        "[DIR | controller]",
-        "Folder for scenarios/ and schema/; or the word controller, with --python or --c.",
+        "DIR|controller", "Folder for scenarios/ and schema/; or the word controller, with --python or --c."
     ),
 ]
 PythonFolder = Annotated[

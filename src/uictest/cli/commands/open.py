@@ -17,7 +17,7 @@ from uictest.runs import history
 Place = Annotated[
     str | None,
     argument(
-        "[RUN|FOLDER]",
+        "RUN|FOLDER",
         "A run, by its name or folder, or a folder of runs [default: the folder of -o].",
         show_default=False,
     ),

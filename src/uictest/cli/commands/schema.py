@@ -47,7 +47,7 @@ _COMMENT: Final = "Written by uictest, which writes it again: keep a schema of y
 Kind = Annotated[
     SchemaKind | None,
     argument(
-        "[KIND]", "Kind of file: what `schema: uictest/KIND/1` says [default: scenario].", show_default=False
+        "KIND", "Kind of file: what `schema: uictest/KIND/1` says [default: scenario].", show_default=False
     ),
 ]
 Folder = Annotated[

@@ -17,7 +17,7 @@ from uictest.cli.run_display import TerminalObserver
 
 Files = Annotated[
     list[Path],
-    argument("FILE...", "Validation files (.yaml), or series that name recordings.", show_default=False),
+    argument("FILE", "Validation files (.yaml), or series that name recordings.", show_default=False),
 ]
 Output = Annotated[Path, option("-o --output DIR", "Folder for validations; each gets a folder in it.")]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import fmean
 from typing import Literal
 
-from uictest.judging.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult, why_no_test
 from uictest.plans.series import PlannedTest, Programme
 
 TestStatus = Literal[
@@ -67,8 +67,8 @@ class JudgedTest:
 
     @property
     def valid_stops(self) -> int:
-        """Number of stops that are tests as measured, or have no criterion that says so."""
-        return sum(stop.test_validity != "not_valid" for stop in self.stops)
+        """Number of stops shown to be tests as measured, or to which no criterion of validity applies."""
+        return sum(stop.outcome != "error" and not why_no_test(stop.criteria) for stop in self.stops)
 
     @property
     def missed_requirements(self) -> list[str]:
@@ -83,10 +83,10 @@ class JudgedTest:
         limits = self.limits
         if len(self.stops) < len(self.planned.stops) or any(stop.outcome == "error" for stop in self.stops):
             return "not run"
-        if limits is not None and math.isnan(limits.largest):
-            return "no reference"
         if limits is not None and not math.isfinite(self.mean):
             return "no standstill"
+        if limits is not None and math.isnan(limits.largest):
+            return "no reference"
         if self.valid_stops < len(self.stops):
             return "no valid test"
         if limits is None:
@@ -108,19 +108,25 @@ def judge_programme(programme: Programme, results: Sequence[CaseResult]) -> list
         planned.test.name: tuple(by_id[case.id] for case in planned.stops if case.id in by_id)
         for planned in programme.tests
     }
+    whole = {
+        each.test.name: own
+        for each in programme.tests
+        if len(own := stops[each.test.name]) == len(each.stops)
+    }
     return [
-        JudgedTest(planned, stops[planned.test.name], _limits(planned, stops))
+        JudgedTest(planned, stops[planned.test.name], _limits(planned, whole))
         for planned in programme.tests
         if stops[planned.test.name]
     ]
 
 
-def _limits(planned: PlannedTest, stops: Mapping[str, Sequence[CaseResult]]) -> Limits | None:
+def _limits(planned: PlannedTest, whole: Mapping[str, Sequence[CaseResult]]) -> Limits | None:
+    """Return the limits of a test; those of a share need every stop of its reference."""
     limit = planned.test.distance
     if limit is None:
         return None
     if limit.at_most is not None and limit.of is not None:
-        reference = [braking_distance(stop) for stop in stops[limit.of]]
+        reference = [braking_distance(stop) for stop in whole.get(limit.of, ())]
         return Limits(largest=float(limit.at_most) * fmean(reference) if reference else math.nan)
     above = -math.inf if limit.above is None else float(limit.above)
     return Limits(above, math.inf if limit.below is None else float(limit.below))

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
+from itertools import combinations
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -125,6 +126,10 @@ class Override(NamedTuple):
 def parse_overrides(texts: Sequence[str], seed: int | None) -> tuple[Override, ...]:
     """Read ``--set`` options and the ``--seed`` option. Raises ScenarioErrors with the errors of all."""
     overrides = read_each(_parse_override, (Document(COMMAND_LINE, Path(), text) for text in texts))
+    for one, later in combinations(overrides, 2):
+        if one.key.startswith(f"{later.key}."):
+            message = f"the option after it sets {quoted(later.key)} as a whole, and this value is lost"
+            raise single_error(one.location, message, one.key, f"write --set {later.key}=... first")
     if seed is not None:
         location = Location(Document("--seed", Path(), str(seed)))
         overrides.append(Override("seed", location, (Scalar(seed, str(seed), location),)))

@@ -210,22 +210,28 @@ def _fitted_columns(columns: Sequence[_TextColumn], width: int | None) -> tuple[
     """Return the columns as they fit into so many characters, and the names of those left out.
 
     Columns are left out until every text that wraps has its whole length, or half of the width shared with
-    the others. Texts that are still longer are wrapped.
+    the others; then the last columns of numbers until no word is broken. Texts that are still longer are
+    wrapped.
     """
     if width is None:
         return list(columns), []
     remaining, left_out = list(columns), set[str]()
     for column in sorted(columns, key=lambda column: -column.rank):
-        if column.rank == 0 or _least_width(remaining, width) <= width:
+        if column.rank == 0 or _least_width(remaining, width // 2) <= width:
+            break
+        remaining.remove(column)
+        left_out.add(column.name)
+    for column in [column for column in reversed(remaining) if column.is_number]:
+        if _least_width(remaining, 0) <= width:
             break
         remaining.remove(column)
         left_out.add(column.name)
     return _wrapped_columns(remaining, width), [column.name for column in columns if column.name in left_out]
 
 
-def _least_width(columns: Sequence[_TextColumn], width: int) -> int:
-    """Return the width that columns need if texts that wrap take at least their share of half the width."""
-    share = width // 2 // max(sum(column.wraps for column in columns), 1)
+def _least_width(columns: Sequence[_TextColumn], room: int) -> int:
+    """Return the width that columns need if texts that wrap take at least their share of so much room."""
+    share = room // max(sum(column.wraps for column in columns), 1)
     widths = [
         min(column.width, max(share, column.longest_piece)) if column.wraps else column.width
         for column in columns

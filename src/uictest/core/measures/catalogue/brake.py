@@ -30,7 +30,7 @@ MEASURES = (
         kind="number",
         course="grows",
         better="smaller",
-        meaning="openings and closings of the vent",
+        meaning="openings of the vent",
         decided=ShownWhen(how="outer", plot="valves", field="venting"),
         of_wheelsets=True,
         recorded=RecordedData(("valve_command_{n}",)),

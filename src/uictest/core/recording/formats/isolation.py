@@ -203,10 +203,14 @@ def leave(folder: Path, name: str, pieces: Iterator[Contents], handed_over: Call
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _NO_ROOM:
             return NO_ROOM
-        return _write_refusal(
-            folder, f"damaged, or nothing that can be read as {name} ({type(error).__name__})"
-        )
+        return _write_refusal(folder, f"damaged or cut off: not readable as {name} ({_name_of(error)})")
     return 0
+
+
+def _name_of(error: Exception) -> str:
+    """Return the name of an exception, with its module: some are called `error`."""
+    module, name = type(error).__module__, type(error).__qualname__
+    return name if module == "builtins" else f"{module}.{name}"
 
 
 def read_here(name: str, path: Path, dialect: Dialect) -> Contents:

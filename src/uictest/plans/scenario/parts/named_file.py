@@ -220,8 +220,8 @@ class Expectation:
             for name in getattr(self, key):
                 if name not in known:
                     others = [each.layer for each in criteria if each.id == name]
-                    what = f"is one of {others[0]}" if others else "is not there"
-                    message = f"`{key}` names criteria of {layer}; {quoted(name)} {what}"
+                    what = f"has the layer {others[0]}" if others else "is no criterion of this scenario"
+                    message = f"`{key}` takes criteria of the layer {layer}; {quoted(name)} {what}"
                     hint = suggestion(name, known) or "there is none in the profiles of this scenario"
                     yield Inconsistency(("expect",), message, hint)
 

@@ -1,5 +1,6 @@
 """The files of a load: bounded in size, UTF-8, hashed, of the kind expected, below known folders."""
 
+import codecs
 import hashlib
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -34,6 +35,9 @@ _COMMANDS: Final = {
     PROGRAMME_SCHEMA: "a programme is run with `uictest run`, from a file that ends in .programme.yaml",
     VALIDATION_SCHEMA: "a validation is run with `uictest validate`",
     BENCH_SCHEMA: "a bench test is run with `uictest bench`",
+    **{f"uictest/{kind}/1": "a part: name it in a scenario" for kind in library.FOLDERS.values()},
+    "uictest/channel-map/1": "a channel map goes with --map of `uictest evaluate`",
+    "uictest/result/2": "results of a run: `uictest report` and `uictest compare` read them",
     "uictest/sweep/1": "written for uictest 0.2 or older: now a sweep is a scenario with `extends` (was"
     " `scenario`), the values of the case that `case` named and, under `vary`, matrix (was grid), ranges, zip"
     " and sample",
@@ -56,6 +60,7 @@ def require_schema(tree: Map, expected: str, hints: dict[str, str] | None = None
     raise single_error(schema.location, f"expected {expected}, found {actual}", "schema", hint)
 
 
+_RECORDINGS: Final = (".csv", ".mat", ".mdf", ".mf4", ".parquet", ".tdms")
 LARGEST: Final = 256 * 1024
 """Largest file that is read, bytes."""
 LIBRARY: Final = "library:"
@@ -70,6 +75,8 @@ def read_file(path: Path, schema: str = SCENARIO_SCHEMA) -> Map:
         raise single_error(
             whole_file(path), "the file name is not UTF-8", hint="reports could not name it; rename the file"
         )
+    if path.suffix.lower() in _RECORDINGS and is_file(path):
+        raise single_error(whole_file(path), "a recording", hint="`uictest evaluate` judges recordings")
     return _parse_tree(display, path.parent, _read_content(path), schema)
 
 
@@ -143,9 +150,10 @@ def _shipped_hint(path: Path) -> str:
     shipped = library.scenarios()
     name = path.name.partition(".")[0]
     if name in shipped:
-        return f"{name} ships with uictest: write `{name}`, or copy it with `uictest init --scenarios`"
+        how = f"write `{name}`, or copy it" if path.suffix else "a scenario, which is not taken here; copy it"
+        return f"{name} ships with uictest: {how} with `uictest init --scenarios`"
     if path.suffix or len(path.parts) > 1:
-        return ""
+        return nearest_file(path)
     guess = nearest(name, shipped)
     return f"did you mean {quoted(guess)}?" if guess else f"by name there are {', '.join(shipped)}"
 
@@ -168,9 +176,9 @@ def _decode_content(display: str, folder: Path, content: bytes) -> str:
         readable = Document(display, folder, content[: error.start].decode("utf-8"))
         location = Location(readable, len(readable.lines), len(readable.lines[-1]) + 1)
         byte = f"0x{content[error.start]:02x}"
-        raise single_error(
-            location, f"byte {byte} is not UTF-8 text", hint="save the file as UTF-8"
-        ) from None
+        is_utf_16 = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        hint = f"save the file as UTF-8{', it is UTF-16' if is_utf_16 else ''}"
+        raise single_error(location, f"byte {byte} is not UTF-8 text", hint=hint) from None
 
 
 LONGEST_CHAIN: Final = 16
@@ -261,11 +269,15 @@ class Files:
         tree: Map = self.once(str(path), partial(read_file, path))
         return tree
 
-    def beside(self, reference: Scalar, key: str) -> Map:
-        """The tree of the file that a relative path names. Raises ScenarioErrors at the reference."""
+    def beside(self, reference: Scalar, key: str, shipped: str | None = None) -> Map:
+        """The tree of the file that a relative path names. Raises ScenarioErrors at the reference.
+
+        ``shipped`` is what it may have been meant to name, if there is no such file.
+        """
         path = self.path_of(reference, key)
         if not is_file(path):
-            hint = nearest_file(path, "paths start at the folder of the file that names them")
+            hint = "paths start at the folder of the file that names them"
+            hint = f"did you mean {quoted(shipped)}?" if shipped else nearest_file(path, hint)
             raise single_error(reference.location, f"no such file: {quoted(reference.text)}", key, hint)
         return self.at(path)
 
@@ -274,7 +286,7 @@ class Files:
         path = self.path_of(reference, key)
         shipped = library.scenarios().get(reference.text)
         if shipped is None or is_file(path):
-            self.beside(reference, key)
+            self.beside(reference, key, nearest(reference.text, library.scenarios()))
             return path
         self.roots = self.roots.with_folder(shipped.parent)
         return shipped
@@ -314,8 +326,10 @@ def trust_hint(path: Path) -> str:
     )
 
 
-def nearest_file(path: Path, otherwise: str) -> str:
+def nearest_file(path: Path, otherwise: str = "") -> str:
     """Hint for a missing file: a file of a similar name in its folder, or another remedy."""
+    if "\\" in path.name:
+        return "write / in place of \\ in paths"
     try:
         guess = nearest(path.name, (each.name for each in path.parent.iterdir() if each.is_file()))
     except (OSError, ValueError):

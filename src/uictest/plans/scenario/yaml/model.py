@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from operator import attrgetter
-from typing import Any, ClassVar, Final, Literal, NamedTuple, Self, get_args, get_origin
+from typing import Any, ClassVar, Final, Literal, NamedTuple, Self, TypeVar, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -33,6 +33,15 @@ class Inconsistency(NamedTuple):
     hint: str = ""
 
 
+_Copied = TypeVar("_Copied", bound=BaseModel)
+
+
+def _of_fields_alone(copied: _Copied) -> _Copied:
+    for name in copied.__dict__.keys() - type(copied).model_fields.keys():
+        del copied.__dict__[name]
+    return copied
+
+
 class Model(BaseModel):
     """A mapping of a scenario or of a library file."""
 
@@ -43,10 +52,11 @@ class Model(BaseModel):
 
     def __copy__(self) -> Self:
         """Return a copy of the fields alone: cached properties are of the values before an update."""
-        copied = super().__copy__()
-        for name in copied.__dict__.keys() - type(self).model_fields.keys():
-            del copied.__dict__[name]
-        return copied
+        return _of_fields_alone(super().__copy__())
+
+    def __deepcopy__(self, memo: dict[int, Any] | None = None) -> Self:
+        """Return a copy of the fields alone, and of what they hold."""
+        return _of_fields_alone(super().__deepcopy__(memo))
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield values that are impossible together."""

@@ -309,6 +309,8 @@ class _Parser:
         line = lines[location.line - 1]
         has_tab = "\t" in line[: len(line) - len(line.lstrip())]
         hint = "indent with blanks, not with tabs" if has_tab else ""
+        if "escape character" in message:
+            hint = 'between " and " a backslash begins an escape: write / in paths'
         return diagnose(location, visible(message), hint=hint)
 
 

@@ -146,6 +146,8 @@ def _as_diagnostics(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator
         name, hint = str(key[-1]), hint_for_key(model, key, written, entry.node)
         if "." in name:
             hint = "dotted keys belong in matrix, zip, include, exclude and --set; write nested keys here"
+        if name[:1].isdecimal() and entry.node == Scalar(None, "", entry.node.location):
+            hint = "numbers have a decimal point: 0.8, not 0,8"
         yield diagnose(entry.key, f"unknown key {quoted(name)}", dotted((*prefix, *written)), hint)
     elif error["type"].startswith("union_tag"):
         yield _unknown_member(key, context, model, tree, prefix)
