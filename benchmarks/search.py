@@ -79,9 +79,7 @@ def searched(
 ) -> searching.SearchOutcome:
     """Search a scenario in memory; on several threads, controllers run in child processes."""
     space = load_search(path, (), seed, (*TRUSTED, path.parent), stops)
-    request = searching.SearchRequest(
-        space, path, None, jobs, guided=guided, in_process=jobs == 1, trusted=TRUSTED
-    )
+    request = searching.SearchRequest(space, None, jobs, guided=guided, in_process=jobs == 1)
     return searching.run_search(request, lambda stops, margin: None, runs.Observer())
 
 
@@ -94,7 +92,7 @@ def show_row(name: str, path: Path, stops: int, seed: int, jobs: int, *, guided:
     margin = outcome.findings.margins["locked-wheels"]
     found = f"found after {after:5}" if after else f"smallest margin {margin:.2f}"
     off_nominal = min((case.off_nominal for case in outcome.found), default=None)
-    rate = 1000.0 * seconds / outcome.all_stops
+    rate = 1000.0 * seconds / (outcome.stops + outcome.stops_of_shrinking)
     kind = "guided" if guided else "random"
     print(f"{name:32} {stops:5} {kind}  {found:20}  off nominal {off_nominal}  {rate:.1f} s/1000", flush=True)
     for case in outcome.found[:1]:

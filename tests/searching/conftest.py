@@ -3,7 +3,7 @@
 import pytest
 
 from uictest import runs, searching
-from uictest.plans.search import load_search
+from uictest.plans.search import Space, load_search
 
 OFFSET = """
 schema: uictest/scenario/1
@@ -46,11 +46,12 @@ def write(tmp_path, monkeypatch):
 
 @pytest.fixture
 def search(tmp_path):
-    """Return a function that searches a scenario; `folder` is that of the files."""
+    """Return a function that searches a scenario or a space; `folder` is that of the files."""
 
     def run(path, folder=None, progress=lambda stops, margin: None, **options):
         target = None if folder is None else tmp_path / folder
-        request = searching.SearchRequest(load_search(path), path, target, **options)
+        space = path if isinstance(path, Space) else load_search(path)
+        request = searching.SearchRequest(space, target, **options)
         return searching.run_search(request, progress, runs.Observer())
 
     return run

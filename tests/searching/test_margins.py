@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 from uictest import rig
 from uictest.core.measures import MEASURES, WHEELSET_COLUMNS
 from uictest.judging.evaluation import Bounds, CaseResult, Verdict, guiding_margin
-from uictest.plans import scenario
+from uictest.plans import library, scenario
 from uictest.plans.scenario.yaml import parse_quantity
 from uictest.plans.sweeps import with_values
 from uictest.report.content import worst_first
@@ -74,6 +74,7 @@ def test_before_a_lock_a_deeper_slide_is_nearer(one, other):
         (300.0, {"measure": "contact_energy", "upper": 1500.0}, 0.8),
         (0.5, {"measure": "sliding_share", "upper": None, "lower": 1.0}, -0.5),
         (3.0, {"measure": "false_reports", "upper": 0.0}, -3.0),  # no limit to scale by
+        (0.0, {"measure": "false_reports", "upper": 0.0, "slide": 0.75}, 0.25),  # nearer the deeper it is
         (math.inf, {"measure": "braking_distance", "upper": 800.0}, -math.inf),
     ],
 )
@@ -89,16 +90,11 @@ def test_nothing_that_was_not_judged_guides():
 
 def test_a_strict_bound_that_is_met_exactly_fails():
     verdict = Verdict("c", "requirement", 1.0, "s", None, 1.0, 0.0, "fail", "", measure="longest_lock")
-    made = result(1.0)
-    assert guiding_margin(made.__class__(**{**vars_of(made), "criteria": (verdict,)}), "c") < 0.0
-
-
-def vars_of(case):
-    return {name: getattr(case, name) for name in case.__dataclass_fields__}
+    assert guiding_margin(replace(result(1.0), criteria=(verdict,)), "c") < 0.0
 
 
 def test_it_has_no_plateau_where_friction_falls_until_a_wheel_locks():
-    [case] = scenario.load([scenario_path("slip-120")], ["rig.wsp=bypassed"])
+    [case] = scenario.load([library.scenarios()["slip-120"]], ["rig.wsp=bypassed"])
     frictions = [f"{0.30 - 0.01 * k:.2f}" for k in range(16)]
     stops = [
         PlannedCase(
@@ -113,12 +109,6 @@ def test_it_has_no_plateau_where_friction_falls_until_a_wheel_locks():
     assert margins[0] > 1.0 > 0.0 > margins[-1]
     falling = [before > after for before, after in itertools.pairwise(margins)]
     assert all(falling), margins
-
-
-def scenario_path(name):
-    from uictest.plans import library
-
-    return library.scenarios()[name]
 
 
 def test_of_stops_without_a_lock_the_one_with_the_largest_slide_is_nearest_to_failing():

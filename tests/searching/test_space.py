@@ -1,5 +1,7 @@
 """The space of a search: from vectors to values as users write them, and back to the scenario."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given, strategies as st
 
@@ -21,7 +23,7 @@ search:
   profile: {points: 3, spacing: 100 m, friction: [0.05, 0.25]}
   faults: {kinds: [speed-sensor], from: [90 km/h, 120 km/h], count: 2}
 """
-BEGIN = Axis("from", 0.0, 30.0, "s", 0.0)
+BEGIN = Axis("from", 0.0, 30.0, "s")
 ROWS = tuple(FAULT_KINDS.values())
 
 
@@ -53,6 +55,15 @@ def test_a_profile_off_nominal_at_one_point_keeps_the_friction_of_the_scenario_e
     assert [each["position"] for each in points] == ["0 m", "100 m", "200 m"]
 
 
+def test_numbers_are_named_by_the_last_of_their_key_where_that_is_enough(space):
+    keys = ["faults.0.at", "body.mass", "bogie.mass", "vehicle.full_load"]
+    search = space.search.model_copy(update={"ranges": dict.fromkeys(keys)})
+    points = [BEGIN._replace(name=f"friction at {position} m") for position in (0, 12.5)]
+    space = replace(space, search=search, axes=(*[BEGIN] * len(keys), *points))
+    names = [name for name, _ in space.numbers_off_nominal(("1 s",) * 4 + ("", "0.1"))]
+    assert names == [*keys[:3], "full load", "friction at 12.5 m"]
+
+
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0))
 def test_an_axis_keeps_its_order_and_its_ends(one, other):
     for axis in (
@@ -62,7 +73,8 @@ def test_an_axis_keeps_its_order_and_its_ends(one, other):
         Axis("leak", 0.0, 3e-8, "m3/(s Pa)", origin=0.0),
         Axis("teeth", 1.0, 100.0, "", origin=0.0, whole=True),
     ):
-        low, high = (axis.number(axis.text_at(share)) for share in sorted((one, other)))
+        texts = (axis.text_at(share) for share in sorted((one, other)))
+        low, high = (float(parse_decimal_quantity(text).number) for text in texts)
         assert axis.low <= low <= high <= axis.high
     assert Axis("speed", 60.0, 160.0, "km/h").text_at(1.0) == "160 km/h"
 

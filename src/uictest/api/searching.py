@@ -15,6 +15,7 @@ from uictest.api.arguments import (
     override_texts,
     thread_count,
 )
+from uictest.core import files
 from uictest.plans.search import load_search
 
 
@@ -60,8 +61,6 @@ def search(
     space = load_search(path, tuple(override_texts(set)), checked_seed(seed), folders, stops)
     folder = None if resume is None else Path(resume)
     if folder is None and output is not None:
-        folder = searching.new_folder(Path(output), space)
-    request = searching.SearchRequest(
-        space, path, folder, thread_count(jobs), resume=resume is not None, trusted=folders
-    )
+        folder = files.new_folder(Path(output), f"{space.name}-search")
+    request = searching.SearchRequest(space, folder, thread_count(jobs), resume=resume is not None)
     return searching.run_search(request, lambda stops, margin: None, runs.Observer())

@@ -11,6 +11,7 @@ from .programme import of_programme as of_programme
 from .publishing import (
     Published as Published,
     holds_sweep as holds_sweep,
+    locked_folder as locked_folder,
     publish_batch as publish_batch,
     publish_run as publish_run,
     result_ids as result_ids,

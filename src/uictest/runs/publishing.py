@@ -7,7 +7,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from uictest import report
 from uictest.core import envelope, files, recording
@@ -15,6 +15,11 @@ from uictest.running import campaign
 from uictest.runs import history
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
+from uictest.runs.scenario_files import InvalidInputError
+
+_PATIENCE: Final = 0.2
+"""How long another process may hold the folder of a sweep or a search, s; chosen: one that only looks is gone
+sooner."""
 
 
 class Published(NamedTuple):
@@ -133,3 +138,24 @@ def result_ids(content: report.RunContent, expression: str) -> frozenset[str]:
         for case in content.all_results
     }
     return frozenset(case_id for case_id, words in names.items() if holds(campaign.mentioned_in(words)))
+
+
+def locked_folder(folder: Path, *, shared: bool = False) -> files.FolderLock:
+    """Return the lock on the folder of a sweep or a search, which is made; shards of a sweep share it.
+
+    Raises InvalidInputError where another process works in it, or it is a link; OSError.
+    """
+    files.make_folder(folder)
+    if folder.is_symlink():
+        raise InvalidInputError(
+            f"{folder} is a link, through which nothing is written: name another output folder",
+            arguments=("output",),
+        )
+    try:
+        with files.writing(folder):
+            return files.FolderLock(folder.parent, folder.name, shared=shared, patience=_PATIENCE)
+    except files.FolderInUseError as error:
+        raise InvalidInputError(
+            f"{folder} is in use by {error}: wait until it ends, or name another output folder",
+            arguments=("output",),
+        ) from error

@@ -18,10 +18,8 @@ from uictest.running import campaign, chunked
 from uictest.running.chunked import CaseSelection, ChangedInputsError, ChunkRunner, ChunkStore, Shard
 from uictest.runs.batch import simulate_cases
 from uictest.runs.observer import Observer
+from uictest.runs.publishing import locked_folder
 from uictest.runs.scenario_files import InvalidInputError
-
-_PATIENCE = 0.2
-"""How long another process may hold the folder, s; chosen: one that only looks is gone sooner."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +91,7 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     KeyboardInterrupt, MaxfailReached.
     """
     with (
-        _locked_folder(request.folder, shared=request.shard.count > 1 and not request.restart),
+        locked_folder(request.folder, shared=request.shard.count > 1 and not request.restart),
         rig.Workers() as workers,
     ):
         if request.in_process and any(sweeps.programs_of(request.selection.plan)):
@@ -109,24 +107,6 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
         except KeyboardInterrupt:
             controllers.interrupt_turns()
             raise
-
-
-def _locked_folder(folder: Path, *, shared: bool) -> files.FolderLock:
-    """Return the lock on the folder of a sweep; shards of the sweep share it."""
-    files.make_folder(folder)
-    if folder.is_symlink():
-        raise InvalidInputError(
-            f"{folder} is a link, and a sweep writes through none: name another output folder",
-            arguments=("output",),
-        )
-    try:
-        with files.writing(folder):
-            return files.FolderLock(folder.parent, folder.name, shared=shared, patience=_PATIENCE)
-    except files.FolderInUseError as error:
-        raise InvalidInputError(
-            f"{folder} is in use by {error}: wait until it ends, or name another output folder",
-            arguments=("output",),
-        ) from error
 
 
 def summarized_chunks(request: SweepRequest, store: ChunkStore, observer: Observer) -> summaries.SweepSummary:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from itertools import chain, count
 from pathlib import Path
 from typing import Final
 
-from uictest import controllers, rig, runs
+from uictest import __version__, controllers, rig, runs
 from uictest.core import files
 from uictest.plans.search import Space
 from uictest.running import campaign
@@ -28,100 +28,88 @@ class SearchRequest:
 
     Args:
         space: that is searched.
-        path: of the scenario, as the user named it.
         folder: for the files; None: none are written.
         jobs: number of threads.
         resume: whether the folder holds a search that was interrupted, which goes on.
         guided: whether half of the stops follow the margins.
         in_process: whether controllers from outside run in this process, which they can then crash.
         arguments: of the command line.
-        trusted: folders that scenarios may refer to.
 
     """
 
     space: Space
-    path: Path
     folder: Path | None = None
     jobs: int = 1
     resume: bool = False
     guided: bool = True
     in_process: bool = False
     arguments: Sequence[str] = ()
-    trusted: Sequence[Path] = ()
-
-
-def new_folder(output: Path, space: Space) -> Path:
-    """Return the folder of a new search below `output`: the first name that nothing has."""
-    name = f"{space.loaded.case.scenario.name}-search"
-    taken = {path.name for path in output.iterdir()} if output.is_dir() else set[str]()
-    return output / next(
-        each for each in chain([name], (f"{name}-{n}" for n in count(2))) if each not in taken
-    )
 
 
 def run_search(request: SearchRequest, progress: Progress, observer: runs.Observer) -> SearchOutcome:
     """Search, make what was found small, and write the files.
 
-    Raises InvalidInputError where the folder to resume is of another search, OSError, and KeyboardInterrupt:
-    the stops that are finished are kept.
+    Raises InvalidInputError where the folder is in use, to resume, is of another search, or stops that failed
+    do not fail again; OSError, and KeyboardInterrupt: the stops that are finished are kept.
     """
     space = request.space
     rig.compiled_rig()
-    _begin_folder(request)
-    file = None if request.folder is None else request.folder / STOPS
-    with rig.Workers() as workers:
+    # What controllers print in thousands of stops is dropped; the run of the found cases keeps it.
+    with _folder(request) as file, rig.Workers(keep_output=True) as workers:
         try:
             run_block = rig.run_block if request.in_process else workers.run_block
-            try:
-                trials = Trials(space, request.jobs, run_block, file)
-            except ValueError as error:
-                raise runs.InvalidInputError(str(error)) from error
-            findings = Engine(trials, progress, request.guided).run()
-            stops = trials.simulated
-            cases = shrunk_cases(trials, findings, request.path, request.folder or Path())
+            engine = Engine(Trials(space, request.jobs, run_block, file), progress, request.guided)
+            findings = engine.run()
+            stops = engine.trials.simulated
+            cases = shrunk_cases(engine, request.folder or Path())
         except KeyboardInterrupt:
             controllers.interrupt_turns()
             raise
-    criteria = space.search.criteria
-    name = space.loaded.case.scenario.name
-    outcome = SearchOutcome(name, criteria, tuple(cases), findings, stops, trials.simulated, request.folder)
-    return outcome if request.folder is None else _published(outcome, request, request.folder, observer)
+        more = engine.trials.simulated - stops
+        outcome = SearchOutcome(space.name, space.search.criteria, tuple(cases), findings, stops, more)
+        return outcome if request.folder is None else _published(outcome, request, request.folder, observer)
 
 
 def _digest(space: Space) -> str:
-    """Return a digest of all that decides which stops a search runs."""
-    section = space.search.model_dump_json()
-    text = f"{section}\n{space.loaded.case.scenario.model_dump_json()}"
-    return hashlib.sha256(text.encode()).hexdigest()
+    """Return a digest of all that decides which stops a search runs, and what they come to."""
+    case = space.loaded.case
+    parts = __version__, space.search.model_dump_json(), case.scenario.model_dump_json(), case.inputs
+    return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
-def _begin_folder(request: SearchRequest) -> None:
-    """Make the folder, or see whether it is that of this search. Raises InvalidInputError, OSError."""
+@contextmanager
+def _folder(request: SearchRequest) -> Iterator[Path | None]:
+    """Lend the file of stops in the folder, which is locked. Raises InvalidInputError, OSError."""
     if request.folder is None:
+        yield None
         return
-    result, digest = request.folder / RESULT, _digest(request.space)
-    if not request.resume:
-        files.make_folder(request.folder)
-        files.write_to(result, json.dumps({"schema": SCHEMA, "search": digest}) + "\n")
-        return
-    try:
-        document = json.loads(result.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise runs.InvalidInputError(f"--resume: {request.folder} holds no search: {error}") from error
-    if not isinstance(document, dict) or document.get("search") != digest:
-        text = f"--resume: {request.folder} holds another search, or the scenario has changed since"
-        raise runs.InvalidInputError(text)
+    begun = {"schema": SCHEMA, "search": _digest(request.space)}
+    result, stops = request.folder / RESULT, request.folder / STOPS
+    if request.resume and not result.is_file():
+        raise runs.InvalidInputError(f"--resume: {request.folder} holds no search: it has no {RESULT}")
+    with runs.locked_folder(request.folder):
+        if not request.resume:
+            files.write_to(stops, "")
+            files.write_to(result, json.dumps(begun) + "\n")
+        document = None
+        with suppress(ValueError):
+            document = json.loads(result.read_text("utf-8"))
+        if not isinstance(document, dict) or not begun.items() <= document.items():
+            text = "holds another search, or uictest, the scenario or a file that it reads has changed since"
+            raise runs.InvalidInputError(f"--resume: {request.folder} {text}")
+        yield stops
 
 
 def _published(
     outcome: SearchOutcome, request: SearchRequest, folder: Path, observer: runs.Observer
 ) -> SearchOutcome:
     """Write the cases, run them with the page of a run, and write the outcome."""
+    outcome = replace(outcome, folder=folder)
     paths = [folder / f"found-{number}.yaml" for number in range(1, len(outcome.found) + 1)]
     for path, case in zip(paths, outcome.found, strict=True):
         files.write_to(path, case.text)
     if paths:
-        trusted = [request.path.parent, *request.trusted]
+        trusted = [request.space.loaded.case.path.parent, *request.space.trusted]
         # On the page what was found are failures: that each file expects its own is for later runs.
         cases = runs.load_cases(paths, ["expect=pass"], None, trusted)
         settings = campaign.RunSettings(request.jobs, in_process=request.in_process)

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import permutations
-from typing import ClassVar, Final, NamedTuple
+from typing import ClassVar, Final
 
-from uictest.plans.search import NOMINAL, Axis, Point
-from uictest.searching.trials import REFUSED, Stop, Trials
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.plans.scenario.yaml import parse_decimal_quantity
+from uictest.plans.search import NOMINAL, Point
+from uictest.searching.engine import Engine
+from uictest.searching.trials import Stop
 
 _STEPS: Final = (5.0, 2.0, 1.0)
 """Round numbers are multiples of these and a power of ten."""
-
-
-class Neighbour(NamedTuple):
-    """A value beside that of a found case: how many of the stops fail with it."""
-
-    text: str
-    failing: int
 
 
 @dataclass(frozen=True)
@@ -27,161 +25,124 @@ class Shrinking:
     """Makes a point that fails smaller; every step is run under all seeds, as a file with its values is.
 
     Args:
-        trials: runs the stops.
+        engine: that found the point.
         target: criterion that fails, or ERROR.
 
     """
 
-    shares_of_size: ClassVar[tuple[float, ...]] = (0.1, 0.25, 0.5, 0.7, 0.85)
-    """Of the size of a fault, tried in turn to make it smaller; chosen."""
-    farther: ClassVar[tuple[float, ...]] = (0.75, 1.25, 0.5, 1.5, 2.0)
-    """Factors on the distance of the value that matters from where it does nothing; chosen."""
+    smaller: ClassVar[tuple[float, ...]] = (0.1, 0.25, 0.5, 0.7, 0.85)
+    """Factors on the size of a fault, tried in turn; chosen."""
+    farther: ClassVar[tuple[float, ...]] = (0.02, 0.1, 0.3)
+    """Steps to the neighbours, over the size of a fault or the range of a number; chosen."""
+    few: ClassVar[int] = 2
+    """Values off nominal that are few enough; chosen: what a sentence says at a glance."""
 
-    moved: ClassVar[tuple[float, ...]] = (0.8, 0.9, 1.1, 1.25)
-    """Factors on the distance from nominal of one value while another becomes nominal; chosen."""
-
-    trials: Trials
+    engine: Engine
     target: str
 
     def smallest(self, point: Point) -> Point:
-        """Return the smallest point that still fails."""
-        before: Point = ()
-        while point != before:
-            before = point
-            failing = (each for each in self._simpler(point) if each != point and self.fails(each))
-            point = next(failing, point)
-        for axes in self.trials.space.faults:
-            point = self._with_smaller_size(point, axes.first + 3)
+        """Return the point with few values off nominal, small faults and round numbers that still fails."""
+        vector = self.engine.vectors[point]
+        while (simpler := next(self._with_fewer(point, vector), None)) is not None:
+            point, vector = simpler, self.engine.vectors.get(simpler, vector)
+        for axes in self.engine.trials.space.faults:
+            column = axes.first + 3
+            while (smaller := self._with_first(point, column, self._smaller_sizes(point, column))) != point:
+                point = smaller
         for column in range(len(point)):
-            point = self._rounded(point, column)
+            point = self._with_first(point, column, self._round_numbers(point, column))
         return point
-
-    def failing(self, point: Point) -> int:
-        """Return in how many stops under different seeds a point fails; 0 where one cannot be run.
-
-        Where all of the first stops pass, and so many that it cannot be found any more, that is 0, too.
-        """
-        needed, stops = self.trials.space.search.fails_in
-        index, failing = self.trials.targets.index(self.target), 0
-        for seeds in (range(stops - needed + 1), range(stops - needed + 1, stops)):
-            trials = self.trials.run(Stop(point, seed, own_noise=True) for seed in seeds)
-            failing += sum(trial.margins[index] < 0.0 for trial in trials)
-            if failing == 0 or any(trial.outcome == REFUSED for trial in trials):
-                return 0
-        return failing
 
     def fails(self, point: Point) -> bool:
-        """Return whether a point fails in as many stops as the search asks for."""
-        return self.failing(point) >= self.trials.space.search.fails_in.needed
+        """Return whether a point fails in as many stops as the search asks for.
 
-    def neighbours(self, point: Point) -> tuple[Neighbour, ...]:
-        """Return values below and above the one that matters with which the point passes, as far as found."""
-        column = self.telling_column(point)
-        if column is None:
-            return ()
-        axis = self._axis(point, column)
-        centre = axis.nominal if axis.origin is None else axis.origin
-        centre = axis.low if math.isnan(centre) else centre
-        value = axis.number(point[column])
-        sides: dict[bool, Neighbour] = {}
-        for factor in self.farther:
-            text = axis.text(_with_digits(centre + factor * (value - centre), 3))
-            is_above = axis.number(text) > value
-            if is_above in sides or text == point[column]:
-                continue
-            failing = self.failing(_with(point, self._columns_alike(point, column), text))
-            if failing < self.trials.space.search.fails_in.needed:
-                sides[is_above] = Neighbour(text, failing)
-        return tuple(sides[side] for side in sorted(sides))
+        Where none of the first fails, and they are so many that it cannot any more, the others are not run.
+        """
+        needed, stops = self.engine.trials.space.search.fails_in
+        is_possible = any(margin < 0.0 for margin in self._margins(point, stops - needed + 1))
+        return is_possible and sum(margin < 0.0 for margin in self._margins(point, stops)) >= needed
 
-    def telling_column(self, point: Point) -> int | None:
-        """Return the column whose value matters: the size of a fault, else the first number off nominal."""
-        space = self.trials.space
-        sizes = [axes.first + 3 for axes in space.faults if point[axes.first + 3] != NOMINAL]
-        numbers = [column for column in range(len(space.axes)) if point[column] != NOMINAL]
-        return next(iter((*sizes, *numbers)), None)
+    def passes(self, point: Point) -> bool:
+        """Return whether a point passes in as many stops, and in so many that it cannot be found."""
+        needed, stops = self.engine.trials.space.search.fails_in
+        passing = sum(margin >= 0.0 for margin in self._margins(point, stops))
+        return passing >= max(needed, stops - needed + 1)
 
-    def _simpler(self, point: Point) -> Iterator[Point]:
-        """Yield points with fewer values off nominal: without a fault, the profile as one, single numbers."""
-        space = self.trials.space
-        for axes in space.faults:
-            yield _with(point, range(axes.first, axes.first + 4), NOMINAL)
-        if profile := space.profile:
-            yield _with(point, profile, NOMINAL)
-            if len({point[column] for column in profile}) > 1:
-                for text in sorted({point[column] for column in profile} - {NOMINAL}):
-                    yield _with(point, profile, text)
-        columns = (*range(len(space.axes)), *(axes.first + k for axes in space.faults for k in (2, 3)))
-        for column in columns:
-            is_optional = column < len(space.axes) or point[column - 1 : column] != (NOMINAL,)
-            if point[column] != NOMINAL and is_optional:
-                yield _with(point, [column], NOMINAL)
-        yield from self._with_another_in_its_place(point)
+    def _margins(self, point: Point, seeds: int) -> list[float]:
+        trials = self.engine.trials
+        run = trials.run(Stop(point, seed, own_noise=True) for seed in range(seeds))
+        return [trial.margins[trials.targets.index(self.target)] for trial in run]
 
-    def _with_another_in_its_place(self, point: Point) -> Iterator[Point]:
-        """Yield points with one number less off nominal, for which another one is moved."""
-        axes = self.trials.space.axes
-        changed = [column for column in range(len(axes)) if point[column] != NOMINAL]
-        for column, other in permutations(changed, 2):
-            axis = axes[other]
-            for factor in () if math.isnan(axis.nominal) else self.moved:
-                text = axis.text(axis.nominal + factor * (axis.number(point[other]) - axis.nominal))
-                yield _with(_with(point, [column], NOMINAL), [other], text)
+    def neighbours(self, point: Point) -> list[str]:
+        """Return the nearest of some values below and above the one that matters with which it passes.
 
-    def _with_smaller_size(self, point: Point, column: int) -> Point:
-        """Return the point with the size of a fault nearest to what changes nothing, while it fails."""
-        if point[column] == NOMINAL or (origin := self._axis(point, column).origin) is None:
-            return point
-        axis = self._axis(point, column)
-        for share in self.shares_of_size:
-            text = axis.text(_with_digits(origin + share * (axis.number(point[column]) - origin), 2))
-            smaller = _with(point, [column], text)
-            if smaller != point and self.fails(smaller):
-                return self._with_smaller_size(smaller, column)
-        return point
+        The one that matters is the size of a fault, else the first number off nominal.
+        """
+        space = self.engine.trials.space
+        sizes = [axes.first + 3 for axes in space.faults]
+        column = next((k for k in (*sizes, *range(len(space.axes))) if point[k] != NOMINAL), None)
+        axis = None if column is None else space.axis_of(point, column)
+        if column is None or axis is None:
+            return []
+        value = _number(point[column])
+        width = axis.high - axis.low if axis.origin is None else abs(value - axis.origin)
+        neighbours = []
+        for side in (-width, width):
+            texts = [axis.text(float(f"{value + side * step:.3g}")) for step in self.farther]
+            neighbours += [t for t in texts if self.passes(self._with_text(point, column, t))][:1]
+        return neighbours
 
-    def _rounded(self, point: Point, column: int) -> Point:
-        """Return the point with the roundest number in a column with which it still fails."""
-        if point[column] == NOMINAL or not self._has_number(column):
-            return point
-        axis = self._axis(point, column)
-        value = axis.number(point[column])
-        power = math.floor(math.log10(axis.high - axis.low))
-        for exponent in range(power, power - 5, -1):
-            for step in _STEPS:
-                unit = step * 10.0**exponent
-                text = axis.text(round(value / unit) * unit)
-                if text == point[column]:
-                    return point
-                rounded = _with(point, self._columns_alike(point, column), text)
-                if self.fails(rounded):
-                    return rounded
-        return point
+    def _with_fewer(self, point: Point, vector: NDArray[np.float64]) -> Iterator[Point]:
+        """Yield points that fail with fewer values off nominal: without one as they are, then near by."""
+        space, numbers = self.engine.trials.space, range(len(self.engine.trials.space.axes))
+        groups = [tuple(axes.columns) for axes in space.faults] + [(column,) for column in numbers]
+        changed = [group for group in groups if point[group[0]] != NOMINAL]
+        of_faults = [(axes.first + k,) for axes in space.faults for k in (2, 3) if point[axes.first + k]]
+        simpler = [_with(point, group, NOMINAL) for group in (tuple(space.profile), *changed, *of_faults)]
+        simpler += [_with(point, space.profile, text) for text in {point[k]: k for k in space.profile}]
+        size = self._size(point)
+        yield from (each for each in simpler if self._size(each) < size and self.fails(each))
+        for group in changed if size[0] > self.few else ():
+            others = [column for each in changed if each != group for column in each]
+            found = self.engine.found_near(vector, others, self.target)
+            yield from (each for each in found if self._size(each) < size and self.fails(each))
 
-    def _columns_alike(self, point: Point, column: int) -> list[int]:
-        """Return the columns that change together: those of a profile that is the same all along."""
-        profile = self.trials.space.profile
-        if column in profile and len({point[each] for each in profile}) == 1:
-            return list(profile)
-        return [column]
+    def _size(self, point: Point) -> tuple[int, int]:
+        """Return how many values are not nominal, and how many beside them that a fault has."""
+        space = self.engine.trials.space
+        of_faults = sum(point[axes.first + k] != NOMINAL for axes in space.faults for k in (2, 3))
+        return space.off_nominal(point), of_faults
 
-    def _has_number(self, column: int) -> bool:
-        """Return whether a column holds numbers: not the kind of a fault or its wheelset."""
-        return all(column not in (axes.first, axes.first + 1) for axes in self.trials.space.faults)
+    def _smaller_sizes(self, point: Point, column: int) -> Iterator[str]:
+        axis = self.engine.trials.space.axis_of(point, column)
+        if axis is not None and axis.origin is not None:
+            for factor in self.smaller:
+                size = axis.origin + factor * (_number(point[column]) - axis.origin)
+                yield axis.text(float(f"{size:.2g}"))
 
-    def _axis(self, point: Point, column: int) -> Axis:
-        for axes in self.trials.space.faults:
-            if column == axes.first + 2:
-                return axes.begin
-            if column == axes.first + 3:
-                return axes.size_axis(point[axes.first])
-        return self.trials.space.axes[column]
+    def _round_numbers(self, point: Point, column: int) -> Iterator[str]:
+        axis = self.engine.trials.space.axis_of(point, column)
+        if axis is not None and point[column] != NOMINAL:
+            power = math.floor(math.log10(axis.high - axis.low))
+            units = (step * 10.0**exponent for exponent in range(power, power - 5, -1) for step in _STEPS)
+            yield from (axis.text(round(_number(point[column]) / unit) * unit) for unit in units)
+
+    def _with_first(self, point: Point, column: int, texts: Iterable[str]) -> Point:
+        """Return the point with the first of some values with which it still fails, or as it is."""
+        others = itertools.takewhile(lambda text: text != point[column], texts)
+        changed = (self._with_text(point, column, text) for text in others)
+        return next(filter(self.fails, changed), point)
+
+    def _with_text(self, point: Point, column: int, text: str) -> Point:
+        """Return the point with another value; a profile that is the same all along stays so."""
+        profile = self.engine.trials.space.profile
+        alike = column in profile and len({point[each] for each in profile}) == 1
+        return _with(point, profile if alike else [column], text)
 
 
-def _with(point: Point, columns: Iterable[int], text: str) -> Point:
-    changed = set(columns)
-    return tuple(text if column in changed else own for column, own in enumerate(point))
+def _with(point: Point, columns: Sequence[int], text: str) -> Point:
+    return tuple(text if column in columns else own for column, own in enumerate(point))
 
 
-def _with_digits(number: float, digits: int) -> float:
-    return float(f"{number:.{digits}g}")
+def _number(text: str) -> float:
+    return float(parse_decimal_quantity(text).number)

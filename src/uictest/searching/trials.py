@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from uictest import rig
 from uictest.core import files
@@ -19,11 +19,13 @@ from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.search import Point, Space
 from uictest.running.campaign import ThreadedMap
 from uictest.running.chunked import ManyStops, PlannedCase, RunBlock
+from uictest.runs import InvalidInputError
 
 ERROR: Final = "error"
 """In place of a criterion: the controller fails, as by a crash."""
 REFUSED: Final = "refused"
 """Outcome of a stop that cannot be run: its values do not fit together."""
+_NOISES: Final = ("nominal", "own")
 
 
 class Stop(NamedTuple):
@@ -39,10 +41,18 @@ class Stop(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """What a stop came to: its outcome, and its margin to each target; NaN where that is not judged."""
+    """What a stop came to: its outcome, and its margin to each target; NaN where that is not judged.
+
+    The margin to ERROR is -1 where the controller fails, else 1 where the stop was run.
+    """
 
     outcome: str
     margins: tuple[float, ...]
+
+    @classmethod
+    def of(cls, outcome: str, margins: Iterable[float]) -> Trial:
+        """Return what a stop with an outcome and margins to the criteria came to."""
+        return cls(outcome, (*margins, {ERROR: -1.0, REFUSED: math.nan}.get(outcome, 1.0)))
 
 
 @dataclass
@@ -54,6 +64,9 @@ class Trials:
         jobs: number of threads; the results do not depend on it.
         run_block: simulates stops with controllers from outside.
         file: to which each finished stop is appended; one that is there already is not run again. None: none.
+        simulated: stops so far.
+
+    Raises InvalidInputError where the file has a row that is no stop of this search.
 
     """
 
@@ -69,17 +82,28 @@ class Trials:
         """Read the stops of a search that was interrupted, and drop a row that was not written to its end."""
         if self.file is None:
             return
-        if not self.file.exists():
-            files.append(self.file, self._csv_text([self._headings]))
-            return
-        text = self.file.read_text("utf-8")
-        whole = text[: text.rfind("\n") + 1]
-        if whole != text:
-            files.write_to(self.file, whole)
-        rows = list(csv.reader(io.StringIO(whole)))
-        if not rows or rows[0] != self._headings:
-            raise ValueError(f"{self.file} is of another search: its columns are others")
-        self._of_before = dict(map(self._read_row, rows[1:]))
+        content = self.file.read_bytes() if self.file.exists() else b""
+        whole = content[: content.rfind(b"\n") + 1].decode("utf-8-sig", "replace") or _csv_text(
+            [self._headings]
+        )
+        files.write_to(self.file, whole)
+        rows = csv.reader(io.StringIO(whole))
+        try:
+            if next(rows) != self._headings:
+                raise ValueError(f"not the columns {','.join(self._headings)}")
+            for row in rows:
+                self._read_row(row)
+        except (ValueError, csv.Error) as error:
+            hint = "remove the line, or search anew without --resume"
+            raise InvalidInputError(f"--resume: {self.file}:{rows.line_num}: {error}; {hint}") from error
+
+    def _read_row(self, row: Sequence[str]) -> None:
+        if len(row) != len(self._headings):
+            raise ValueError(f"{len(row)} values for {len(self._headings)} columns")
+        seed, noise, *point = row[: 2 + len(self.space.columns)]
+        outcome, *margins = row[2 + len(point) :]
+        stop = Stop(tuple(point), int(seed), bool(_NOISES.index(noise)))
+        self._of_before[stop] = Trial.of(outcome, [float(text or math.nan) for text in margins])
 
     @property
     def targets(self) -> tuple[str, ...]:
@@ -91,11 +115,9 @@ class Trials:
         asked = list(stops)
         new = [stop for stop in dict.fromkeys(asked) if stop not in self._known]
         missing = [stop for stop in new if stop not in self._of_before]
-        results = [_trial(result, self.targets) for result in self.simulate(missing)]
-        tried = dict(zip(missing, results, strict=True))
-        if self.file is not None and missing:
-            rows = [self._row(stop, tried[stop]) for stop in missing]
-            files.append(self.file, self._csv_text(rows))
+        tried = dict(zip(missing, map(self.trial, self.simulate(missing)), strict=True))
+        if self.file is not None and tried:
+            files.append(self.file, _csv_text(self._row(stop, trial) for stop, trial in tried.items()))
         for stop in new:
             self._known[stop] = trial = tried.get(stop) or self._of_before[stop]
             self.simulated += trial.outcome != REFUSED
@@ -103,67 +125,46 @@ class Trials:
 
     def simulate(self, stops: Sequence[Stop]) -> list[CaseResult | None]:
         """Return the results of stops; None for one that cannot be run."""
-        results: dict[int, CaseResult] = {}
-        for own_noise, many in ((False, self._with_nominal_noise), (True, self._with_own_noise)):
+        results: dict[str, CaseResult] = {}
+        for own_noise, many in enumerate(self._with_nominal_and_own_noise):
             planned: list[PlannedCase] = []
             for index, stop in enumerate(stops):
                 if stop.own_noise == own_noise:
                     with suppress(ScenarioErrors):
                         case = self.space.case(stop.point, stop.seed)
                         planned.append(PlannedCase(replace(case, id=str(index))))
-            results |= {int(result.id): result for result in self._results(many, planned)}
-        return [results.get(index) for index in range(len(stops))]
-
-    def _results(self, many: ManyStops, planned: Sequence[PlannedCase]) -> Iterator[CaseResult]:
-        """Yield the results of cases, an equal share of which runs on each thread."""
-        count = min(self.jobs, len(planned))
-        parts = [planned[number::count] for number in range(count)]
-        with ThreadedMap(lambda part: many.results(part)[0], parts, jobs=self.jobs) as done:
-            for of_part in done:
-                yield from of_part
+            shares = [planned[k :: self.jobs] for k in range(min(self.jobs, len(planned)))]
+            with ThreadedMap(many.results, shares, jobs=self.jobs) as done:
+                results |= {result.id: result for of_share, _ in done for result in of_share}
+        return [results.get(str(index)) for index in range(len(stops))]
 
     @cached_property
-    def _with_own_noise(self) -> ManyStops:
-        return ManyStops((), self.run_block)
+    def _with_nominal_and_own_noise(self) -> tuple[ManyStops, ManyStops]:
+        nominal = ManyStops((), self.run_block, noise_of=self.space.loaded.case)
+        return nominal, ManyStops((), self.run_block)
+
+    def trial(self, result: CaseResult | None) -> Trial:
+        """Return what a result comes to; an error that is not of the controller refuses the stop."""
+        criteria = self.space.search.criteria
+        if result is None or result.outcome == ERROR:
+            failed = result is not None and result.reason.startswith("controller:")
+            return Trial.of(ERROR if failed else REFUSED, [math.nan] * len(criteria))
+        return Trial.of(result.outcome, (guiding_margin(result, criterion) for criterion in criteria))
 
     @cached_property
-    def _with_nominal_noise(self) -> ManyStops:
-        return ManyStops((), self.run_block, noise_of=self.space.loaded.case)
-
-    @property
     def _headings(self) -> list[str]:
-        margins = (f"margin {target}" for target in self.targets[:-1])
+        margins = (f"margin {criterion}" for criterion in self.space.search.criteria)
         return ["seed", "noise", *self.space.columns, "outcome", *margins]
 
     def _row(self, stop: Stop, trial: Trial) -> list[str]:
-        noise = "own" if stop.own_noise else "nominal"
         margins = ("" if math.isnan(each) else repr(each) for each in trial.margins[:-1])
-        return [str(stop.seed), noise, *stop.point, trial.outcome, *margins]
-
-    def _read_row(self, row: Sequence[str]) -> tuple[Stop, Trial]:
-        end = 2 + len(self.space.columns)
-        margins = tuple(float(text) if text else math.nan for text in row[end + 1 :])
-        stop = Stop(tuple(row[2:end]), int(row[0]), row[1] == "own")
-        return stop, Trial(row[end], (*margins, _error_margin(row[end])))
-
-    @staticmethod
-    def _csv_text(rows: Iterable[Sequence[str]]) -> str:
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(rows)
-        return text.getvalue()
+        return [str(stop.seed), _NOISES[stop.own_noise], *stop.point, trial.outcome, *margins]
 
 
-def _trial(result: CaseResult | None, targets: Sequence[str]) -> Trial:
-    """Return what a result comes to; an error that is not of the controller refuses the stop."""
-    if result is None or (result.outcome == "error" and not result.reason.startswith("controller:")):
-        return Trial(REFUSED, (math.nan,) * len(targets))
-    failed = result.outcome == "error"
-    margins = (math.nan if failed else guiding_margin(result, target) for target in targets[:-1])
-    return Trial(result.outcome, (*margins, _error_margin(result.outcome)))
-
-
-def _error_margin(outcome: str) -> float:
-    return -1.0 if outcome == ERROR else math.nan
+def _csv_text(rows: Iterable[Sequence[str]]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def kth_margin(margins: Sequence[float], needed: int, stops: int) -> float:
@@ -171,5 +172,5 @@ def kth_margin(margins: Sequence[float], needed: int, stops: int) -> float:
 
     Of fewer margins it is the one at the same share of them. NaN counts as no failure, infinitely far.
     """
-    known: Any = sorted(math.inf if math.isnan(margin) else margin for margin in margins)
-    return float(known[math.ceil(needed * len(known) / stops) - 1])
+    known = sorted(math.inf if math.isnan(margin) else margin for margin in margins)
+    return known[math.ceil(needed * len(known) / stops) - 1]

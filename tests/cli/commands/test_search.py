@@ -19,7 +19,7 @@ def test_nothing_found_exits_0_and_says_what_that_excludes(call, scenario):
     answer = call("search", scenario("sound", SEARCH), "-n", "1", code=0)
     first, second, last = answer.out.splitlines()
     assert first.startswith("locked-wheels: nothing found; smallest margin ")
-    assert second.startswith("At most ")
+    assert second.startswith("    at most ")
     assert "of the searched space fails (95 %): none of 8 random points did" in second
     assert int(last.partition(" ")[0]) in range(16, 20)
     assert "reports/sound-search" in answer.err
@@ -43,6 +43,8 @@ def test_json_has_what_search_json_has(call, scenario, workplace):
     document = json.loads((workplace / "reports/sound-search/search.json").read_text("utf-8"))
     document.pop("search")
     assert json.loads(answer.out) == document
+    assert document["findings"]["random"] == {"locked-wheels": 10}
+    assert document["findings"]["largest_share"] == {"locked-wheels": pytest.approx(1.0 - 0.05**0.1)}
     assert "Infinity" not in answer.out
 
 
@@ -79,6 +81,8 @@ def test_a_search_of_the_same_name_gets_a_folder_of_its_own_and_resume_goes_on(c
         ("2 of 3", "4 of 3", "4 of 3 is impossible"),
         ("2 of 3", "often", "write `8 of 10`"),
         ("ranges: {rail.friction: [0.08, 0.20]}", "seed: 1", "there is nothing to search"),
+        ("rail.friction: [0.08, 0.20]", "seed: [1, 5]", "search.ranges.seed: the search sets it"),
+        ("0.20]", f"0.08{17 * '0'}1]", "the bounds must rise"),
         ("ranges:", "faults: {kinds: [sander-blocked]}\n  ranges:", "has no sander"),
         ("ranges:", "faults: {kinds: [sandr]}\n  ranges:", "no fault is called 'sandr'"),
         (

@@ -36,7 +36,7 @@ def check(
             continue
         with yaml.collecting(errors, yaml.whole_file(path)):
             checked += load(path, trusted or ())
-    errors += [] if errors else search.searches_in(scenarios, trusted or ())[1]
+    errors += [] if errors else search.searches_in(scenarios, trusted or ())
     implausible = runs.implausible_trains(checked)
     errors += implausible if strict else ()
     warn_of_implausible(() if strict else implausible)

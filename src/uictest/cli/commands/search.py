@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from time import monotonic
 from typing import Annotated
@@ -14,6 +15,7 @@ from uictest.cli import options
 from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.run_display import HEARTBEAT, TerminalObserver
+from uictest.core import files
 from uictest.plans import search as plans
 
 SearchFile = Annotated[Path, argument("FILE", "Scenario with the section `search`.", show_default=False)]
@@ -53,28 +55,22 @@ def search(
     observer = TerminalObserver()
     if in_process and space.loaded.case.is_from_outside:
         observer.foreign_in_process()
-    folder = resume or searching.new_folder(output, space)
+    folder = resume or files.new_folder(output, f"{space.name}-search")
     request = searching.SearchRequest(
-        space,
-        file,
-        folder,
-        jobs,
-        resume=resume is not None,
-        in_process=in_process,
-        arguments=context.obj,
-        trusted=trusted or (),
+        space, folder, jobs, resume is not None, in_process=in_process, arguments=context.obj
     )
     try:
         outcome = searching.run_search(request, _Progress(space.search.stops), observer)
     except KeyboardInterrupt:
-        message(f"uictest: interrupted; finished stops are kept: --resume {folder} continues")
+        kept = f"--resume {report.argument(str(folder))}"
+        message(f"uictest: interrupted; finished stops are kept: {kept} continues")
         return ExitCode.INTERRUPTED
     if shown is options.PlainFormat.JSON:
         data(json.dumps(outcome.document(), indent=2, default=str))
     for line in outcome.lines if shown is options.PlainFormat.TEXT else ():
         data(report.no_command(report.printable(line)))
     for number, _ in enumerate(outcome.found, start=1):
-        message(f"uictest: uictest run {folder / f'found-{number}.yaml'}")
+        message(f"uictest: uictest run {report.argument(str(folder / f'found-{number}.yaml'))}")
     message(f"uictest: {outcome.page or folder}")
     return ExitCode.MISSED if outcome.found else ExitCode.MET
 
@@ -91,8 +87,11 @@ class _Progress:
         self._shown_at = monotonic()
 
     def __call__(self, stops: int, margin: float) -> None:
-        if margin > self._shown - self.step and monotonic() - self._shown_at < HEARTBEAT:
+        if not margin <= self._shown - self.step and monotonic() - self._shown_at < HEARTBEAT:
             return
         self._shown, self._shown_at = margin, monotonic()
-        state = "found" if margin < 0.0 else f"smallest margin {margin:.2f}"
-        message(f"uictest: {stops} of {self._stops} stops: {state}")
+        if margin < 0.0:
+            message(f"uictest: {stops} stops: making small what was found")
+        else:
+            nearest = f": smallest margin {margin:.2f}" if math.isfinite(margin) else ""
+            message(f"uictest: {stops} of {self._stops} stops{nearest}")

@@ -5,6 +5,7 @@ from .run_folder import (
     ForeignFileError as ForeignFileError,
     RunFolder as RunFolder,
     latest_run as latest_run,
+    new_folder as new_folder,
     point_latest as point_latest,
     remove_run as remove_run,
     replaced_folder as replaced_folder,

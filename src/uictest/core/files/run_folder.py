@@ -344,6 +344,17 @@ def _hidden_folder_of(folder: Path) -> Path:
     return folder.with_name(f".{folder.name}.partial")
 
 
+def new_folder(parent: Path, name: str) -> Path:
+    """Make `parent/name`, with `-2`, `-3`, ... at its end where that name is taken. Raises WriteError."""
+    make_folder(parent)
+    with writing(parent / name):
+        for free in _candidate_names(name):
+            with suppress(FileExistsError):
+                (parent / free).mkdir()
+                return parent / free
+    raise AssertionError  # there are always more names
+
+
 def _candidate_names(name: str) -> Iterator[str]:
     yield name
     yield from (f"{name}-{number}" for number in itertools.count(2))

@@ -20,9 +20,9 @@ def guiding_margin(result: CaseResult, criterion: str) -> float:
     NaN where the criterion is not judged, where the figures are not those of the test, and where a
     requirement that stands in a valid test alone is missed in another stop.
 
-    Where a measure is 0 until something begins, as the time of a lock is, its margin would be the same in all
-    stops before. There, with a from 0 to 1 how near a stop comes to the beginning, the margin m counts as
-    m (2 - a): the sign and the order of failures stay, 1 is the beginning and 2 a stop without any slide.
+    Where a measure is 0 until something begins, as the time of a lock or a count is, its margin would be the
+    same in all stops before. There 1 - a is added, with a from 0 to 1 how near a stop comes to the beginning:
+    of a lock, 1 is the beginning and 2 a stop without any slide.
     Margins of different criteria are of different scales: never add them.
     """
     verdict = next((verdict for verdict in result.decided if verdict.id == criterion), None)
@@ -36,7 +36,7 @@ def guiding_margin(result: CaseResult, criterion: str) -> float:
     if not column:
         return margin
     approaches = [value for wheelset in result.wheelsets if math.isfinite(value := wheelset[column])]
-    return margin * (2.0 - min(max(approaches, default=1.0), 1.0))
+    return margin + 1.0 - min(max(approaches, default=1.0), 1.0)
 
 
 def _scaled_margin(verdict: Verdict) -> float:

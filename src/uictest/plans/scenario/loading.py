@@ -84,13 +84,14 @@ class LoadedCase(NamedTuple):
     """A case and the tree that it is resolved from; `vary` is what a sweep of it varies.
 
     Of a car that a sweep varies, the tree is that of its train. `search` is the section of that name, which
-    says nothing of the case.
+    says nothing of the case; `written` what its file and the parents of it say, without the command line.
     """
 
     case: Case
     tree: Map
     vary: Entry | None = None
     search: Entry | None = None
+    written: Map | None = None
 
 
 def load(
@@ -140,6 +141,7 @@ class _ScenarioFile(NamedTuple):
     """One scenario file: what its cases share, and the case of every id."""
 
     path: Path
+    written: Map
     tree: Map
     documents: tuple[Document, ...]
     short: dict[str, str]
@@ -189,7 +191,7 @@ class _Loader:
         merged = without_inherited_vehicle(merged, documents)
         merged = with_default_vehicles(merged) if is_train(merged) else with_default_parts(merged)
         self.diagnostics.extend(overridden_alone(merged, self.overrides))
-        merged = apply_overrides(merged, self.overrides)
+        written, merged = merged, apply_overrides(merged, self.overrides)
         base = merged.without(*EXPANSION_KEYS)
         # Errors of the sweep do not hide those of its values: valid ones are checked nevertheless.
         variants = expand_valid(merged, self.diagnostics)
@@ -199,7 +201,9 @@ class _Loader:
         settings = [setting for variant in variants for setting in variant]
         short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
         labels = controller_labels(settings, self.parts)
-        return _ScenarioFile(path, base, documents, short, labels, vary, search, {}, inherits), variants
+        return _ScenarioFile(
+            path, written, base, documents, short, labels, vary, search, {}, inherits
+        ), variants
 
     def _without_vary(self, own: Map, merged: Map) -> tuple[Map, Entry | None]:
         """Take off what a sweep varies. Raises ScenarioErrors where the file should be none, or is none."""
@@ -248,7 +252,8 @@ class _Loader:
             parameters = {**swept, CAR: str(number)} if is_coupled else swept
             train = TrainPlace(case_id(*named), number, scenarios) if is_coupled else None
             case = Case(identifier, scenario, path, parameters, inputs, train)
-            loaded.append(LoadedCase(case, tree if self.varied else car, file.vary, file.search))
+            own = tree if self.varied else car
+            loaded.append(LoadedCase(case, own, file.vary, file.search, file.written))
         return loaded
 
     def _varied(self, base: Map, variant: Variant) -> Map:

@@ -40,6 +40,7 @@ MEASURES = (
             whole=True,
             overview=Overview("most vents\nof a wheelset", digits=0, rank=8, short="vents\nmax"),
         ),
+        approach="maximum_slide",
         finite_field="valve_actuations",
     ),
     Measure(

@@ -108,6 +108,7 @@ MEASURES = (
         decided=ShownWhen(how="outer", plot="valves", field="falsely_reported"),
         observed_by=(*_RULE, "locked_speed"),
         recorded=_FAULTS,
+        approach="maximum_slide",
     ),
     Measure(
         name="unreported_deviation",

@@ -52,6 +52,18 @@ def _parse_fails_in(value: object) -> FailsIn:
     return parsed
 
 
+def _rising(bounds: tuple[DecimalQuantity, DecimalQuantity]) -> tuple[DecimalQuantity, DecimalQuantity]:
+    low, high = bounds
+    if common_unit(bounds) is None:
+        raise refused(f"{low} and {high} have different units", "write both with the same unit")
+    if float(low.number) >= float(high.number):
+        raise refused(f"the bounds must rise from {low} to {high}")
+    return bounds
+
+
+RisingBounds = Annotated[TwoBounds, AfterValidator(_rising)]
+
+
 def kinds_named(name: str) -> list[FaultKind]:
     """Return the kinds of faults that a name means: `speed-sensor-offset`, or some of its words in order.
 
@@ -89,7 +101,7 @@ class SearchedFaults(Model):
         default=tuple(map(fault_name, FAULT_KINDS.values())),
         min_length=1,
     )
-    begin: TwoBounds = field(
+    begin: RisingBounds = field(
         "Earliest and latest beginning of a fault: two times, speeds or distances.",
         alias="from",
         default=(DecimalQuantity(Decimal(0), "s"), DecimalQuantity(Decimal(30), "s")),
@@ -99,10 +111,6 @@ class SearchedFaults(Model):
         "How many faults a stop has besides those of the scenario.", default=1, ge=1, le=3, strict=True
     )
 
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a latest beginning before the earliest, and two units."""
-        yield from bounds_out_of_order("from", self.begin)
-
 
 class SearchedProfile(Model):
     """Friction at points along the track, searched in place of `rail.friction`."""
@@ -111,22 +119,9 @@ class SearchedProfile(Model):
     spacing: Quantity = quantity(
         "Distance between two of them; the first is at 0 m.", "length", "1 m .. 10 km"
     )
-    friction: TwoBounds = field(
+    friction: RisingBounds = field(
         "Lowest and highest friction coefficient at any of them.", examples=[[0.05, 0.25]]
     )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield bounds that do not rise."""
-        yield from bounds_out_of_order("friction", self.friction)
-
-
-def bounds_out_of_order(key: str, bounds: tuple[DecimalQuantity, DecimalQuantity]) -> Iterator[Inconsistency]:
-    """Yield bounds of two units, or that do not rise."""
-    low, high = bounds
-    if common_unit(bounds) is None:
-        yield Inconsistency((key,), f"{low} and {high} have different units", "write both with the same unit")
-    elif low.number >= high.number:
-        yield Inconsistency((key,), f"the bounds must rise from {low} to {high}")
 
 
 class Search(Model):
@@ -135,7 +130,7 @@ class Search(Model):
     criteria: tuple[str, ...] = field(
         "Ids of the criteria, each searched for itself.", min_length=1, examples=[["locked-wheels"]]
     )
-    ranges: dict[str, TwoBounds] = field(
+    ranges: dict[str, RisingBounds] = field(
         "Lowest and highest value by dotted key.",
         default={},
         max_length=32,
@@ -160,15 +155,14 @@ class Search(Model):
     seed: int = field("Seed of the points that are tried.", default=0, ge=0, le=2**32 - 1, strict=True)
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield an empty space, bounds that do not rise, and friction that is searched twice."""
+        """Yield an empty space, keys that the search sets itself, and a criterion that is named twice."""
         if not self.ranges and self.profile is None and self.faults is None:
             hint = "give `ranges`, `profile` or `faults`: ranges: {rail.friction: [0.05, 0.20]}"
             yield Inconsistency((), "there is nothing to search", hint)
-        for key, bounds in self.ranges.items():
-            for problem in bounds_out_of_order(key, bounds):
-                yield problem._replace(key=("ranges", *problem.key))
-            if sets_friction(key) and self.profile is not None:
-                message = f"`profile` stands in place of `{FRICTION}`"
-                yield Inconsistency(("ranges", key), message, "leave one of them out")
+        for key in filter(sets_friction, self.ranges if self.profile is not None else ()):
+            message = f"`profile` stands in place of `{FRICTION}`"
+            yield Inconsistency(("ranges", key), message, "leave one of them out")
+        for key in {"seed", "repeat"} & self.ranges.keys():
+            yield Inconsistency(("ranges", key), "the search sets it", "`fails_in` says how many seeds")
         if len(set(self.criteria)) < len(self.criteria):
             yield Inconsistency(("criteria",), "a criterion is named twice")
