@@ -9,10 +9,11 @@ import yaml
 
 import uictest
 from tests.searching.conftest import OFFSET, SOUND
+from uictest import searching
 from uictest.core import files
 from uictest.judging.evaluation import CaseResult
 from uictest.plans.search import load_search
-from uictest.searching import Engine, Trial, Trials
+from uictest.searching import Engine, Findings, Trial, Trials
 from uictest.searching.shrinking import Shrinking
 
 
@@ -130,7 +131,7 @@ def test_a_profile_is_made_small_and_written_from_the_folder_of_the_case(write, 
 def test_where_nothing_is_found_the_stops_bound_what_can_fail(write, search):
     outcome = search(write(SOUND))
     assert outcome.found == ()
-    share, points = outcome.findings.largest_share["locked-wheels"], outcome.findings.random["locked-wheels"]
+    share, points = outcome.findings.largest_share["locked-wheels"], outcome.findings.judged["locked-wheels"]
     assert (1.0 - share) ** points == pytest.approx(0.05)
     assert 0.0 < outcome.findings.margins["locked-wheels"] < 2.0
     assert outcome.stops >= 48
@@ -220,6 +221,12 @@ def test_numbers_of_a_part_that_the_scenario_only_names_are_written_below_it(wri
     space = load_search(outcome.folder.parent / "search.yaml")
     assert space.columns[1] == "vehicle.payload"
     assert outcome.found
+
+
+def test_random_points_that_were_not_judged_are_said():
+    findings = Findings(margins={"c": 0.5}, random=10, judged={"c": 7})
+    lines = searching.SearchOutcome("x", ("c",), (), findings, 20, 0).lines
+    assert lines[1].endswith("none of 7 random points did; 3 more were not judged")
 
 
 def test_a_criterion_that_judges_no_stop_is_said(write, search):

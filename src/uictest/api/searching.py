@@ -51,7 +51,8 @@ def search(
 
     Raises:
         uictest.ScenarioErrors: the file is invalid, or a key of `set`; the message has every error in it.
-        ValueError: an argument is invalid, or `resume` holds another search.
+        ValueError: an argument is invalid, `resume` holds another search, or stops that failed do not fail
+            again.
         OSError: the results cannot be written.
 
     """

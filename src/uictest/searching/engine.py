@@ -32,7 +32,8 @@ class Findings:
         found: target -> points that fail, the first first.
         found_after: target -> stops that were simulated until it was found.
         margins: criterion -> smallest margin of a point under one or two seeds, or all if it was confirmed.
-        random: criterion -> random points that it judged.
+        random: random points that could be run.
+        judged: criterion -> random points that it judged.
         refused: points that could not be run.
 
     """
@@ -40,13 +41,14 @@ class Findings:
     found: dict[str, list[Point]] = field(default_factory=dict)
     found_after: dict[str, int] = field(default_factory=dict)
     margins: dict[str, float] = field(default_factory=dict)
-    random: dict[str, int] = field(default_factory=dict)
+    random: int = 0
+    judged: dict[str, int] = field(default_factory=dict)
     refused: int = 0
 
     @property
     def largest_share(self) -> dict[str, float]:
         """Criterion that was not found -> share of the space that fails it at most, with 95 % confidence."""
-        return {name: 1.0 - 0.05 ** (1.0 / n) for name, n in self.random.items() if name not in self.found}
+        return {name: 1.0 - 0.05 ** (1.0 / n) for name, n in self.judged.items() if name not in self.found}
 
 
 @dataclass
@@ -124,9 +126,10 @@ class Engine:
             if self._open in ([], [ERROR]) or not len(block):
                 return
             for margins in self._try_vectors(block):
+                self.findings.random += margins[-1] < math.inf  # to ERROR: finite where a stop was run
                 for name, margin in zip(space.search.criteria, margins, strict=False):
                     if margin < math.inf:
-                        self.findings.random[name] = self.findings.random.get(name, 0) + 1
+                        self.findings.judged[name] = self.findings.judged.get(name, 0) + 1
 
     def _follow(self, target: str, stops: int) -> None:
         """Follow the margin to one target until it is found, or so many stops are simulated."""

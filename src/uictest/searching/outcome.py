@@ -73,6 +73,14 @@ class SearchOutcome:
     page: Path | None = None
 
     @property
+    def judges_nothing(self) -> bool:
+        """Whether a criterion judged no stop at all, so that nothing is known of it."""
+        found, margins = self.findings.found, self.findings.margins
+        return any(
+            name not in found and not math.isfinite(margins.get(name, math.inf)) for name in self.criteria
+        )
+
+    @property
     def lines(self) -> list[str]:
         """The answer in words: what was found, or what the stops exclude."""
         lines = [f"found: {case.sentence}" for case in self.found]
@@ -83,9 +91,11 @@ class SearchOutcome:
             nearest = f"smallest margin {margin:.3g} (fails below 0)" if known else "it judged no stop"
             lines.append(f"{criterion}: nothing found; {nearest}")
             if share := self.findings.largest_share.get(criterion):
-                points = self.findings.random[criterion]
+                judged = self.findings.judged[criterion]
                 bound = f"at most {100.0 * share:.2g} % of the searched space fails (95 %)"
-                lines.append(f"    {bound}: none of {points} random points did")
+                others = self.findings.random - judged
+                beside = f"; {others} more were not judged" if others else ""
+                lines.append(f"    {bound}: none of {judged} random points did{beside}")
         refused = f"; {self.findings.refused} points could not be run" if self.findings.refused else ""
         more = f" and {self.stops_of_shrinking} to make it small" if self.stops_of_shrinking else ""
         return [*lines, f"{self.stops} stops{more}{refused}"]

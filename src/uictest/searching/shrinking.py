@@ -99,7 +99,9 @@ class Shrinking:
         changed = [group for group in groups if point[group[0]] != NOMINAL]
         of_faults = [(axes.first + k,) for axes in space.faults for k in (2, 3) if point[axes.first + k]]
         simpler = [_with(point, group, NOMINAL) for group in (tuple(space.profile), *changed, *of_faults)]
-        simpler += [_with(point, space.profile, text) for text in {point[k]: k for k in space.profile}]
+        simpler += [
+            _with(point, space.profile, text) for text in dict.fromkeys(point[k] for k in space.profile)
+        ]
         size = self._size(point)
         yield from (each for each in simpler if self._size(each) < size and self.fails(each))
         for group in changed if size[0] > self.few else ():

@@ -1,6 +1,7 @@
 """`uictest search` on the command line."""
 
 import json
+import shlex
 
 import pytest
 
@@ -43,7 +44,7 @@ def test_json_has_what_search_json_has(call, scenario, workplace):
     document = json.loads((workplace / "reports/sound-search/search.json").read_text("utf-8"))
     document.pop("search")
     assert json.loads(answer.out) == document
-    assert document["findings"]["random"] == {"locked-wheels": 10}
+    assert document["findings"]["judged"] == {"locked-wheels": 10}
     assert document["findings"]["largest_share"] == {"locked-wheels": pytest.approx(1.0 - 0.05**0.1)}
     assert "Infinity" not in answer.out
 
@@ -72,6 +73,7 @@ def test_a_search_of_the_same_name_gets_a_folder_of_its_own_and_resume_goes_on(c
     ("before", "after", "says"),
     [
         ("[locked-wheels]", "[locked-wheel]", "did you mean 'locked-wheels'?"),
+        ("[locked-wheels]", "[standstill]", "a stop that does not end is inconclusive, not a failure"),
         ("rail.friction:", "rail.fricton:", "did you mean 'friction'?"),
         ("rail.friction: [0.08, 0.20]", "name: [1, 2]", "belongs to the file"),
         ("rail.friction: [0.08, 0.20]", "controller: [1, 2]", "controller"),
@@ -102,6 +104,24 @@ def test_what_is_wrong_in_the_section_is_said_by_check_and_by_search(call, scena
     for command in commands:
         answer = call(command, path, code=4)
         assert says in answer.err, answer.err
+
+
+def test_a_criterion_that_judges_no_stop_is_no_green_answer(call, scenario):
+    answer = call("search", scenario("dry-only", SEARCH.replace("locked-wheels", "braking-distance")), code=5)
+    assert "braking-distance: nothing found; it judged no stop" in answer.out
+    progress = [line for line in answer.err.splitlines() if "stops" in line]
+    assert len(progress) == len(set(progress))
+
+
+def test_the_command_that_runs_a_found_case_trusts_the_folder_of_its_scenario(
+    call, scenario, workplace, monkeypatch
+):
+    path = scenario("bypassed", BYPASSED).resolve()
+    (workplace / "elsewhere").mkdir()
+    monkeypatch.chdir(workplace / "elsewhere")
+    answer = call("search", path, "-n", "1", code=1)
+    [command] = [line for line in answer.err.splitlines() if "found-1.yaml" in line]
+    call(*shlex.split(command.partition("uictest: uictest ")[2]), code=0)
 
 
 def test_a_scenario_without_the_section_cannot_be_searched(call, scenario):

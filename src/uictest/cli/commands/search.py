@@ -70,9 +70,19 @@ def search(
     for line in outcome.lines if shown is options.PlainFormat.TEXT else ():
         data(report.no_command(report.printable(line)))
     for number, _ in enumerate(outcome.found, start=1):
-        message(f"uictest: uictest run {report.argument(str(folder / f'found-{number}.yaml'))}")
+        path = report.argument(str(folder / f"found-{number}.yaml"))
+        message(f"uictest: uictest run {path}{_trust(file, *trusted or ())}")
     message(f"uictest: {outcome.page or folder}")
-    return ExitCode.MISSED if outcome.found else ExitCode.MET
+    if outcome.found:
+        return ExitCode.MISSED
+    return ExitCode.NOTHING_SELECTED if outcome.judges_nothing else ExitCode.MET
+
+
+def _trust(file: Path, *trusted: Path) -> str:
+    """Return the options with which the found cases may refer to the scenario and to what it refers to."""
+    folders = dict.fromkeys((file.parent, *trusted))
+    outside = (each for each in folders if not each.resolve().is_relative_to(Path.cwd()))
+    return "".join(f" --trust {report.argument(str(folder))}" for folder in outside)
 
 
 class _Progress:
@@ -87,7 +97,8 @@ class _Progress:
         self._shown_at = monotonic()
 
     def __call__(self, stops: int, margin: float) -> None:
-        if not margin <= self._shown - self.step and monotonic() - self._shown_at < HEARTBEAT:
+        has_fallen = margin < self._shown and margin <= self._shown - self.step
+        if not has_fallen and monotonic() - self._shown_at < HEARTBEAT:
             return
         self._shown, self._shown_at = margin, monotonic()
         if margin < 0.0:

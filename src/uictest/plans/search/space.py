@@ -353,16 +353,23 @@ def searches_in(paths: Sequence[Path], trusted: Sequence[Path]) -> list[Diagnost
 
 def _require_criteria(space: Space) -> None:
     """Raise ScenarioErrors for a criterion that does not judge the scenario, or checks the rig."""
-    known = [
-        criterion.id
+    known = {
+        criterion.id: criterion.measure
         for profile in space.loaded.case.scenario.judged_by
         for criterion in profile.criteria
         if criterion.layer in ("requirement", "validity")
-    ]
+    }
     for name in space.search.criteria:
         if name not in known:
             message = f"{quoted(name)} is no criterion of this scenario"
             raise single_error(space.location_of(), message, "search.criteria", suggestion(name, known))
+        if known[name] == "standstill":
+            message = (
+                f"{quoted(name)} cannot be searched: a stop that does not end is inconclusive, not a failure"
+            )
+            raise single_error(
+                space.location_of(), message, "search.criteria", "search distance-over-reference"
+            )
 
 
 def _axes_of_ranges(space: Space) -> Iterator[Axis]:
